@@ -2,7 +2,7 @@
 from typing import NamedTuple
 
 from examples import picture, sized
-from particles.pairs import rate, zero
+from particles.pairs import pair_term
 from studies.build import ready
 from studies.build.fixed import with_term
 from studies.front import compare
@@ -13,10 +13,7 @@ class Rusanov(NamedTuple):
     c: float
 
 
-zero.of(Rusanov)(lambda term: (0.0, 0.0, 0.0, 0.0))
-
-
-@rate.of(Rusanov)
+@pair_term(Rusanov, 4)
 def _(term, a, b, ab):          # ab.sx, ab.sy: half of S
     f = term.c*(ab.sx*ab.sx + ab.sy*ab.sy)**0.5
     return f*(b.rho - a.rho), f*(b.rho*b.vx - a.rho*a.vx), f*(b.rho*b.vy - a.rho*a.vy), f*(b.eps - a.eps)

@@ -7,9 +7,6 @@ from continuum.jit import jit
 from particles.neighbours import u64
 from particles.threads import Threads
 
-#: of whole numbers, spacings: sums in another order differ by 1e-16, but all except 1e-8 are rounded alike
-GRID = 2.0**-24
-
 
 @jit
 def _stage(first, last, y, k, total, stage, weight, forward):
@@ -64,30 +61,3 @@ class TwoStep(Euler):
         y[places:] += dt*self._k[places:]
         if places:
             y[:places] += dt*sums.velocity(y)
-
-
-def whole(q: np.ndarray) -> np.ndarray:
-    """The nearest multiples of GRID."""
-    return np.rint(q/GRID)*GRID
-
-
-class Leapfrog:
-    """Half a kick, a drift, half a kick [Verlet 1967]: reversible but for round-off; `rounded` is added."""
-    evaluations = 2
-    rounded: Any = staticmethod(np.asarray)
-
-    def __init__(self, shape: tuple[int, ...], threads: Threads):
-        self._k = np.empty(shape)
-
-    def step(self, sums: Any, y: np.ndarray, dt: float) -> None:
-        """Advance y = (x, y, vx, vy, e) in place by dt; energies, of which nothing depends, stay."""
-        for drift in (dt, 0.0):
-            sums.rates(y, self._k)
-            y[2:4] += self.rounded(self._k[2:4]*dt/2)
-            y[:2] += self.rounded(y[2:4]*drift)
-
-
-class Whole(Leapfrog):
-    """The same in whole numbers, reversible bit by bit    [Levesque & Verlet 1993]"""
-
-    rounded = staticmethod(whole)

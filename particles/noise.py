@@ -73,18 +73,9 @@ def uniform_of_pair(seed, step, i, j):
 
 
 @inlined
-def normals_of_pair(seed, step, i, j, block):
-    """Four normal numbers, symmetric in i, j."""
-    a, b, c, d = words_of_pair(seed, step, i, j, block)
-    (p, q), (r, s) = normal(a, b), normal(c, d)
-    return p, q, r, s
-
-
-@inlined
-def normals_of_point(seed, step, i, block):
-    """Four normal numbers: components 4 block to 4 block + 3 of point i."""
-    a, b, c, d = words_of_point(seed, step, i, block)
-    (p, q), (r, s) = normal(a, b), normal(c, d)
+def normals(words):
+    """Four normal numbers from four words."""
+    (p, q), (r, s) = normal(words[0], words[1]), normal(words[2], words[3])
     return p, q, r, s
 
 
@@ -93,6 +84,6 @@ def fill_normals(first, last, seed, step, out):
     """out[i, c] = normal number of (seed, step, i, c), for points first..last; `out` (points, components)."""
     for i in range(first, last):
         for c in range(0, out.shape[1], 4):
-            found = normals_of_point(seed, step, i, c//4)
+            found = normals(words_of_point(seed, step, i, c//4))
             for k in range(min(4, out.shape[1] - c)):
                 out[i, c + k] = found[k]

@@ -8,8 +8,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from continuum.fluid import conductivity, energy, stress, temperature, viscosity
-from particles.neighbours import make_lists, sort_into_cells
-from particles.pairs import Pairs, interpolate, sweep
+from particles.neighbours import make_lists, sort_into_cells, u32, u64
+from particles.pairs import Pairs, entries, interpolate, sweep
 
 
 class Smoothed(NamedTuple):
@@ -79,16 +79,12 @@ class PlateHeat(NamedTuple):
 def pairs_behind(sums: Any, side: int) -> Pairs:
     """The pairs of fluid particles with what is behind the lower (-1) or upper (+1) plate."""
     around, pairs, half = sums.around, sums.around.pairs, sums.method.box[1]/2
-    rows = np.flatnonzero(side*around.y[:sums.n] > half - sums.method.weight.h)
-    taken = pairs.taken[rows].astype(np.int64)
-    offset = np.cumsum(taken) - taken
-    entry = np.arange(taken.sum()) + np.repeat(pairs.first[rows].astype(np.int64) - offset, taken)
+    row, entry = entries(pairs, np.flatnonzero(side*around.y[:sums.n] > half - sums.method.weight.h))
     behind = side*around.y[pairs.near[entry]] > half
-    count = np.bincount(np.repeat(np.arange(len(rows)), taken)[behind], minlength=len(rows))
-    first, new = np.zeros_like(pairs.first), np.zeros_like(pairs.taken)
-    first[rows], new[rows] = np.cumsum(count) - count, count
-    return pairs._replace(first=first, taken=new, near=pairs.near[entry[behind]], wx=pairs.wx[entry[behind]],
-                          wy=pairs.wy[entry[behind]])
+    row, entry = row[behind], entry[behind]
+    count = np.bincount(row, minlength=len(pairs.first))
+    return pairs._replace(first=(np.cumsum(count) - count).astype(u64), taken=count.astype(u32),
+                          near=pairs.near[entry], wx=pairs.wx[entry], wy=pairs.wy[entry])
 
 
 class Grid(NamedTuple):

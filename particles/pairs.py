@@ -1,4 +1,5 @@
 """The only pair loops: `weigh` finds pairs in range and their weights, `sweep` sums terms over them."""
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -50,6 +51,13 @@ def empty_pairs(rows: int, entries: int) -> Pairs:
     (start, first), (length, taken) = np.empty((2, rows), u64), np.empty((2, rows), u32)
     listed, near = np.empty((2, entries), u32)
     return Pairs(start, length, listed, first, taken, near, *np.empty((2, entries)))
+
+
+def entries(pairs: Any, rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Row and entry of all pairs of some rows, in their order."""
+    first, taken = (q[rows].astype(np.int64) for q in (pairs.first, pairs.taken))
+    before = np.cumsum(taken) - taken
+    return np.repeat(rows, taken), np.repeat(first - before, taken) + np.arange(taken.sum())
 
 
 class Block(NamedTuple):
@@ -125,6 +133,13 @@ def rate(term, a, b, ab):
 @generic
 def zero(term):
     """The empty sum of a term: a tuple of zeros."""
+
+
+def pair_term(kind: type, columns: int) -> Callable:
+    """Makes a formula the `rate` of a kind of term, whose sums have so many columns."""
+    empty = (0.0,)*columns
+    zero.of(kind)(lambda term: empty)
+    return rate.of(kind)
 
 
 def add(one: tuple, other: tuple) -> Any:

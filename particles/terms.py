@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from continuum.jit import formula, generic
-from particles.pairs import rate, zero
+from particles.pairs import pair_term
 
 
 class Gradients(NamedTuple):
@@ -39,17 +39,12 @@ class Fluxes(NamedTuple):
     """
 
 
-zero.of(Gradients)(lambda term: (0.0,)*8)
-zero.of(ArithmeticGradients)(lambda term: (0.0,)*8)
-zero.of(Fluxes)(lambda term: (0.0,)*5)
-
-
-@rate.of(Gradients)
+@pair_term(Gradients, 8)
 def _(term, a, b, ab):
     return _differences(a, b, a.s*b.s*ab.wx, a.s*b.s*ab.wy)
 
 
-@rate.of(ArithmeticGradients)
+@pair_term(ArithmeticGradients, 8)
 def _(term, a, b, ab):
     f = 2/(a.s + b.s)
     return _differences(a, b, f*ab.wx, f*ab.wy)
@@ -62,7 +57,7 @@ def _differences(a, b, x, y):
     return u*x, v*x, T*x, s*x, u*y, v*y, T*y, s*y
 
 
-@rate.of(Fluxes)
+@pair_term(Fluxes, 5)
 def _(term, a, b, ab):
     # four equal sums in one vector register; the fourth is not used
     fx = (a.xx + b.xx)*ab.wx + (a.yx + b.yx)*ab.wy
@@ -80,10 +75,7 @@ class DirectFluxes(NamedTuple):
     """
 
 
-zero.of(DirectFluxes)(lambda term: (0.0,)*3)
-
-
-@rate.of(DirectFluxes)
+@pair_term(DirectFluxes, 3)
 def _(term, a, b, ab):
     x, y, u, v = a.x - b.x, a.y - b.y, a.vx - b.vx, a.vy - b.vy
     # two particles in one place exert no force on each other

@@ -1,6 +1,6 @@
-"""Integral hydrodynamics between plates, edge by edge in numpy, d = 1, 2, 3: the readable twin of `layer`.
+"""Integral hydrodynamics between plates, edge by edge in numpy: the readable twin of `layer`.
 
-Plates are across the last axis; m = (1, .., 1, -1) is what a mirror makes of a vector. Convection and
+Plates are across y; m = (1, -1) is what a mirror makes of a vector. Convection and
 pressure see images with rho, T, eps, P even and m v, P going on hydrostatically; friction and heat see -v and
 2 T_w - T. An edge from i to the image of p has a twin from p to the image of i, of area -m S. Hence the
 adjoint of slopes d_a that see odd images sees -m_a, and sums that are to stay go through images with m_a:
@@ -10,8 +10,7 @@ adjoint of slopes d_a that see odd images sees -m_a, and sums that are to stay g
     F_a     m_a     tau_ab v_b, the work that mends the heating: -m_a times -1
 
 A force along an edge, A e e.(v_j - v_i) in Eq. 51, would not be symmetric: the twin lies along -m e. Edges
-to images take the mean of both, so that plates at rest do no work. In 2D A is 0 without bulk viscosity; on a
-line both are the same.
+to images take the mean of both, so that plates at rest do no work. A is 0 without bulk viscosity.
 """
 from dataclasses import dataclass
 from functools import cached_property, singledispatch
@@ -22,7 +21,7 @@ import numpy as np
 from continuum.fluid import stress_tensor
 from particles.integral import dih
 from particles.integral.dih import Dih, EdgeFluxes, Flow, Mixed, NestedFluxes, Pairwise, take
-from particles.integral.edges import Beyond, mirror
+from particles.integral.edges import MIRROR, Beyond
 
 
 class Ends(NamedTuple):
@@ -41,12 +40,10 @@ class Ends(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class PlainPlates(Dih):
-    """A fluid on fixed points x (n, d) between plates at T_plates (lower, upper) under gravity g along the
-    last axis, downwards.
+    """A fluid on fixed points x (n, 2) between plates at T_plates (lower, upper) under gravity g, downwards.
 
     edges, beyond : of `edges.between_plates`. transport : Pairwise, Mixed or Nested, with eta_i grad v_j as
-    Eqs 37 and 38 have it
-    (`layer` has eta_j grad v_j).
+    Eqs 37 and 38 have it (`layer` has eta_j grad v_j).
     """
     x: np.ndarray
     beyond: Beyond
@@ -62,7 +59,7 @@ class PlainPlates(Dih):
         return Ends(joined([edges.i, beyond.i]), joined([edges.j, beyond.parent]),
                     joined([edges.S, beyond.S]),
                     joined([edges.k, beyond.k]), joined([edges.apart, beyond.apart]),
-                    joined([one, mirror(edges.d)*images]),
+                    joined([one, MIRROR*images]),
                     joined([one, -images])[:, :1], joined([none, 2*np.array(self.T_plates)[beyond.plate]]),
                     joined([none, rise]))
 
@@ -111,7 +108,8 @@ def _(transport: Pairwise, fluid: PlainPlates, flow: Flow) -> EdgeFluxes:
     found = EdgeFluxes(*((a + b)/2 for a, b in zip(*both, strict=True)))
     if transport.mended:
         slope = fluid.gradient(NestedFluxes(), flow.v, far.v)
-        F, tau = dih.lacking(c, flow.v, slope), dih.transposed(c, slope)
+        tau = dih.transposed(c, slope)
+        F = np.einsum("nab,nb->na", tau, flow.v)
         found = found._replace(energy=found.energy
                                - (ends.S*(F[ends.i] + ends.mirror*F[ends.to])).sum(axis=1)/2)
         if np.ptp(c.eta) > 0 or np.ptp(c.zeta) > 0:

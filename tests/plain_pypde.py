@@ -1,36 +1,23 @@
-"""The equations of py-pde in readable form: rates, heat through the volume, with its operators and ghosts.
+"""The gas in py-pde in readable form: rates, heat through the volume, with py-pde's ghosts.
 
 Slow twins of `continuum.pypde`: differences and means of neighbours alternate.
 """
 import numpy as np
 
 from continuum.fluid import conductivity, pressure, stress, temperature, viscosity
-from continuum.pypde.boussinesq import Boussinesq
 from continuum.pypde.gas import RHO, VX, VY, E, Gas, mx, my
 
 # continuum.jit comes before everything that loads numba
 # isort: split
-from pde import ScalarField, VectorField, get_backend
+from pde import get_backend
 
 PERIODIC = {"x": "periodic"}
 
 
-def rate(equation, data: np.ndarray) -> np.ndarray:
-    """d(data)/dt."""
-    return (of_gas if isinstance(equation, Gas) else of_layer)(equation, data)
-
-
-def volume_nusselt(equation, data: np.ndarray) -> float:
+def volume_nusselt(gas: Gas, data: np.ndarray) -> float:
     """Nusselt number on average over the volume."""
-    if isinstance(equation, Gas):
-        flux, scene = energy_flux(equation, data).mean(axis=0), equation.scene
-        return float(np.trapezoid(flux))/equation.rows*scene.L/(scene.k*scene.dT)
-    _, T, psi = equation.padded(data)
-    v = (psi[:-2] - psi[2:])/(2*equation.h)
-    return 1 + float(np.mean(v*T[1:-1], axis=0).sum())*equation.h/equation.kappa
-
-
-# --- the gas ----------------------------------------------------------------------------------------------
+    flux, scene = energy_flux(gas, data).mean(axis=0), gas.scene
+    return float(np.trapezoid(flux))/gas.rows*scene.L/(scene.k*scene.dT)
 
 
 def padded(gas: Gas, data: np.ndarray) -> np.ndarray:
@@ -54,8 +41,8 @@ def differences(gas: Gas) -> tuple:
     return lambda f: (f[1:] - f[:-1])/gas.h, lambda f: (f[:, 1:] - f[:, :-1])/gas.h
 
 
-def of_gas(gas: Gas, data: np.ndarray) -> np.ndarray:
-    """The rates of the gas."""
+def rate(gas: Gas, data: np.ndarray) -> np.ndarray:
+    """d(data)/dt."""
     rho, u, v, e, T = padded(gas, data)
     (dx, dy), eos, law = differences(gas), gas.scene.eos, gas.scene.law
     P = pressure(eos, rho, e)[1:, 1:]
@@ -91,23 +78,3 @@ def energy_flux(gas: Gas, data: np.ndarray) -> np.ndarray:
     _, _, syy = stress(eta[1:, 1:], 0.0, dx(u)[:, 1:], 0, 0, dy(v)[1:])
     dragged = mx(sxy*my(u)[:-1]) + up*np.pad(my(syy)[:-1], ((0, 0), (1, 0)))
     return carried - dragged - (my(k)*dy(T))[1:-1]
-
-
-# --- the layer --------------------------------------------------------------------------------------------
-
-
-def of_layer(layer: Boussinesq, data: np.ndarray) -> np.ndarray:
-    """With py-pde's operators; the vorticity's ghosts are Thom's, -2 psi/h^2 on the plates."""
-    def thom(full, args=None):
-        full[1:-1, 0], full[1:-1, -1] = -2*args[:, 0]/layer.h**2, -2*args[:, -1]/layer.h**2
-        full[0], full[-1] = full[-2], full[1]
-    psi_bc = PERIODIC | {"y": {"virtual_point": 0}}
-    T_bc = PERIODIC | {"y-": {"virtual_point": 0.5}, "y+": {"virtual_point": -0.5}}
-    omega, T = layer.state(data)
-    psi = ScalarField(layer.grid, layer.streamfunction(omega.data))
-    grad_psi, grad_T = psi.gradient(psi_bc), T.gradient(T_bc)
-    u = VectorField.from_scalars([grad_psi[1], -grad_psi[0]])
-    advected = u.dot(omega.gradient(thom, args=psi.data))
-    spread = layer.nu*omega.laplace(thom, args=psi.data)
-    return np.array([(spread - advected + grad_T[0]).data,
-                     (layer.kappa*T.laplace(T_bc) - u.dot(grad_T)).data])

@@ -7,7 +7,7 @@ import pytest
 from crowd import prepare, random_fields
 
 from continuum.fluid import ConstEta, ConstNu, IdealGas, PowerLaw, VanDerWaals
-from particles.integral.bodies import between_circles, held, in_disc, together, turning, with_surface
+from particles.integral.bodies import held, together
 from particles.integral.dih import Dih, Pairwise
 from particles.integral.edge_makers import renormalised
 from particles.integral.points import jittered, lattice
@@ -16,6 +16,7 @@ from particles.integral.stream import Stream, separated
 from particles.integral.triangulation import delaunay
 from particles.threads import Threads
 from particles.weights import Lucy
+from studies.conservation.discs import between_circles, in_disc, turning, with_surface
 
 LAW = ConstEta(0.3, 0.4)
 LAWS = pytest.mark.parametrize("law", [LAW, ConstNu(0.3, 0.4)], ids=["const-eta", "const-nu"])

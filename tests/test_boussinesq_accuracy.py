@@ -12,7 +12,7 @@ from continuum.boussinesq import (
     steady,
     transient,
 )
-from continuum.richardson import richardson
+from studies.kit.fits import richardson
 
 
 def k_and_nu(case: BoussinesqCase, sizes, rolls: int = 1) -> list:

@@ -6,9 +6,9 @@ import pytest
 
 from continuum.gas.fields import initial, interpolate, onto
 from continuum.gas.solve import run, steady_on
-from continuum.richardson import richardson
 from continuum.scene import RayleighBenard, Walls
 from continuum.steady import Time
+from studies.kit.fits import richardson
 
 GAS = RayleighBenard(ra=5000)
 

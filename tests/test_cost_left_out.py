@@ -4,7 +4,6 @@ import pytest
 from crowd import rates
 
 from particles.integral.edge_makers import renormalised
-from particles.integral.isothermal import Carried, ConstantFriction, Isothermal
 from particles.integral.points import jittered, lattice
 from particles.integral.triangulation import delaunay
 from particles.integrators import RK4
@@ -15,27 +14,19 @@ from particles.threads import Threads
 from particles.weights import Lucy
 from studies.build.scenes import TaylorGreen
 from studies.cost import contestants, left_out, tables
+from studies.cost.isothermal import Isothermal
 from studies.cost.seconds import array_bytes
 
-TERMS = (Carried(2.0), ConstantFriction(0.3))
 
-
-def on_lattice(size, terms=TERMS):
+def on_lattice(size):
     points = lattice((size, size))
-    return Isothermal(x=points.x, edges=renormalised(points, Lucy.of(h=2.0)), terms=terms)
+    return Isothermal(x=points.x, edges=renormalised(points, Lucy.of(h=2.0)), c2=2.0)
 
 
-@pytest.fixture(scope="module")
-def off_lattice():
-    """Irregular points with triangles, and a state (3, n) on them."""
-    points, rng = jittered((6, 5), 0.2, 1), np.random.default_rng(2)
-    return points, delaunay(points), np.array([1.0, 0.2, -0.1])[:, None] + 0.1*rng.normal(size=(3, points.n))
-
-
-@pytest.mark.parametrize("terms", [TERMS, TERMS[::-1]])
-def test_listed_terms_are_the_brackets_of_the_paper(off_lattice, terms):
+def test_rates_without_heat_are_the_brackets_of_the_paper():
     """Slowly, edge by edge: Eqs 34, 35 with P = c^2 rho, and friction eta k (v_j - v_i)."""
-    points, edges, state = off_lattice
+    points, rng = jittered((6, 5), 0.2, 1), np.random.default_rng(2)
+    edges, state = delaunay(points), np.array([[1.0], [0.2], [-0.1]]) + 0.1*rng.normal(size=(3, points.n))
     rho, v = state[0], (state[1:]/state[0]).T
     wanted = np.zeros((points.n, 3))
     for i, j, S, k in zip(edges.i, edges.j, edges.S, edges.k, strict=True):
@@ -44,14 +35,14 @@ def test_listed_terms_are_the_brackets_of_the_paper(off_lattice, terms):
         momentum = carried + 2.0*S*(rho[i] + rho[j])/2 - 0.3*k*(v[j] - v[i])
         wanted[i] -= np.r_[mass, momentum]
         wanted[j] += np.r_[mass, momentum]
-    method = Isothermal(x=points.x, edges=edges, terms=terms)
+    method = Isothermal(x=points.x, edges=edges, c2=2.0, eta=0.3)
     np.testing.assert_allclose(rates(method, state), wanted.T/edges.V, atol=1e-13)
 
 
 @pytest.mark.parametrize("share, stable", [(0.98, True), (1.05, False)])
 def test_the_limit_of_the_step_is_that_of_sound(share, stable):
     """Without friction: noise stays below, and grows above."""
-    method = on_lattice(12, TERMS[:1])
+    method = on_lattice(12)
     state = np.array([1 + 1e-6*np.random.default_rng(1).normal(size=144), *np.zeros((2, 144))])
     sums, now = method.start(144, Threads(1)), state.copy()
     for _ in range(400):
@@ -64,7 +55,7 @@ def test_a_density_that_is_not_positive_ends_a_run():
     state = np.array([np.ones(36), *np.zeros((2, 36))])
     state[0, 3] = -1.0
     with pytest.raises(Divergence, match="point 3 has rho = -"):
-        run(on_lattice(6, TERMS[:1]), state, Plan(dt=1e-6, steps=1))
+        run(on_lattice(6), state, Plan(dt=1e-6, steps=1))
 
 
 def test_what_is_left_out_is_not_stored():

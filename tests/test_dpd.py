@@ -3,6 +3,7 @@ import itertools
 
 import numpy as np
 import pytest
+from crowd import goes_on_bitwise
 
 from particles.dissipative.dpd import Dpd
 from particles.dissipative.integrators import (
@@ -86,20 +87,7 @@ def test_momentum_is_conserved(integrator, box):
 def test_threads_and_restarts_do_not_matter(integrator, tmp_path):
     """Bitwise; the run is stopped between two lists, two of the orders of cells lie behind it."""
     method = Dpd(box=(4.0, 4.0, 4.0), integrator=integrator)
-    state, plan = method.random_start(3.0), {"dt": 0.02, "every": 7, "series": {"kT": kinetic_temperature}}
-    whole = run(method, state, Plan(steps=60, **plan))
-    two = run(method, state, Plan(steps=60, threads=2, **plan))
-
-    def stop(fraction):
-        raise KeyboardInterrupt
-
-    file = tmp_path/"run.h5"
-    with pytest.raises(KeyboardInterrupt):      # at step 16, then at 32, ...
-        run(method, state, Plan(steps=60, checkpoint=file, **plan), progress=stop)
-    again = run(method, state, Plan(steps=60, checkpoint=file, **plan))
-    for other in (two, again):
-        assert np.array_equal(whole.by_id(), other.by_id())
-        assert whole.series == other.series
+    goes_on_bitwise(method, method.random_start(3.0), 0.02, tmp_path)
 
 
 @pytest.mark.parametrize("box", BOXES)
@@ -169,3 +157,33 @@ def test_without_friction_kicks_and_drifts_can_be_taken_back():
     assert np.abs(apart - 6*np.round(apart/6)).max() < 1e-10
     assert np.abs(back[3:6] + start[3:6]).max() < 1e-10
     assert np.abs(there[:3] - start[:3]).max() > 0.1
+
+
+@pytest.mark.parametrize("wrong, message", [
+    ({"kT": -1.0}, "kT must be zero or positive, got -1.0"),
+    ({"gamma": -4.5}, "gamma must be zero or positive, got -4.5"),
+    ({"a": np.nan}, "a must be zero or positive, got nan"),
+    ({"skin": -0.1}, "skin must be zero or positive"),
+    ({"box": (10.0, 2.9, 10.0)}, "sides of at least 3"), ({"box": (10.0,)}, "two or three sides"),
+    ({"noise": Uniform(-1)}, "the seed must be a whole number")])
+def test_bad_fluids(wrong, message):
+    with pytest.raises(ValueError, match=message):
+        Dpd(**{"box": (4.0, 4.0, 4.0), **wrong})
+    with pytest.raises(ValueError, match=r"rho = 0\.001 makes no two particles"):
+        Dpd(box=(4.0, 4.0, 4.0)).random_start(1e-3)
+
+
+def test_a_step_beyond_the_stability_limit():
+    method = Dpd(box=(4.0, 4.0, 4.0))
+    with pytest.raises(ValueError,
+                       match=r"dt = 0\.15 is above the stability limit 0\.138 of these particles"):
+        run(method, method.random_start(3.0), Plan(dt=0.15, steps=1))
+
+
+def test_collapsed_particles_are_an_error():
+    method = Dpd(box=(30.0, 30.0, 30.0))
+    state = method.random_start(0.1)
+    state[:3] *= 1e-3
+    with pytest.raises(FloatingPointError,
+                       match=r"neighbours within 1\.3 of each particle: they have collapsed"):
+        run(method, state, Plan(dt=0.02, steps=1))

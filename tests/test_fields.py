@@ -20,7 +20,6 @@ from particles.integral.dih import Dih
 from particles.integral.drifts import DRIFTS
 from particles.integral.edge_makers import renormalised
 from particles.integral.edges import between_plates
-from particles.integral.isothermal import Carried, Isothermal
 from particles.integral.layer import Driven, Layer
 from particles.integral.moving_delaunay import MovingDelaunay
 from particles.integral.points import jittered, lattice
@@ -34,6 +33,7 @@ from particles.limits import limit_of
 from particles.smooth.spam import Spam
 from particles.walls.periodic import periodic
 from particles.weights import Lucy, WendlandC2
+from studies.cost.isothermal import Isothermal
 
 BOX = COLUMNS, ROWS = 16, 8        # two threads share no fewer points
 AT, SQUARE = jittered(BOX, 0.1, 1), lattice(BOX)
@@ -52,7 +52,7 @@ FIXED = {"dih": Dih(edges=EDGES, **FLUID), "layer": Layer(**INSIDE),
          "sheared": Sheared(points=SQUARE, edges=EDGES, rate=0.1, **FLUID), "driven": Driven(**INSIDE),
          "moving-delaunay": MovingDelaunay(x=SQUARE.x, rings=rings(SQUARE.x, BOX, (False, False)),
                                            held=held(np.array([0])), **FLUID)}
-COLD = Isothermal(x=SQUARE.x, edges=EDGES, terms=(Carried(2.0),))
+COLD = Isothermal(x=SQUARE.x, edges=EDGES, c2=2.0)
 MOVING = {**{f"rr98-{name}": Drift(motion=motion, **EVERYWHERE) for name, motion in DRIFTS.items()},
           **{f"plain-{name}": kind(box=BOX, weight=WendlandC2.of(h=2.9), **FLUID) for name,
              kind in MOTIONS.items()},

@@ -3,11 +3,12 @@ import numpy as np
 import pytest
 
 from continuum.fluid import ConstEta, IdealGas
-from particles.integral import covariance, fluctuating
+from particles.integral import fluctuating
 from particles.integral.dih import Dih, NestedFluxes, Pairwise
 from particles.integral.edge_makers import MAKERS
 from particles.integral.points import jittered, lattice, random
 from particles.weights import WendlandC2
+from studies.noise import covariance
 
 COUNTS = {1: (20,), 2: (8, 9), 3: (5, 5, 6)}
 SETS = {"lattice": lambda d: lattice(COUNTS[d]), "jittered": lambda d: jittered(COUNTS[d], 0.2, 1),

@@ -67,7 +67,7 @@ def allowed(module: str, other: str) -> bool:
     if own == "particles":
         return other in SHARED
     if own == "studies.kit":
-        return other in ("continuum", "continuum.jit", "continuum.richardson")     # fits over sizes of grids
+        return other in ("continuum", "continuum.jit")
     if own == f"studies.{PAGE}":
         return True
     rooms = BELOW[:1] if own == "studies.build" else BELOW

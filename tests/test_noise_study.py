@@ -7,12 +7,12 @@ import pytest
 
 from particles.dissipative.dpd import Dpd
 from particles.integral import fluctuating
-from particles.integral.covariance import steady
 from particles.integral.edge_makers import delaunay
 from particles.integral.points import jittered
 from studies.kit.sweep import RESULTS
 from studies.noise import cases
 from studies.noise.below_onset import root, sampled, slowest_amplitude
+from studies.noise.covariance import steady
 from studies.noise.dissipative import blocks, neighbours
 from studies.noise.partners import KT, viscosity
 from studies.noise.printed_noise import dirichlet, heat_kicks, heat_rates

@@ -13,9 +13,9 @@ from continuum.gas import solve as compressible
 from continuum.gas.fields import block, initial
 from continuum.gas.newton import Discrete
 from continuum.linear import critical_ra_square
-from continuum.richardson import richardson
 from continuum.scene import RayleighBenard, Walls
 from continuum.steady import NewtonFailed, Steady
+from studies.kit.fits import richardson
 from studies.kit.table import Tables
 from studies.onset import STUDY
 from studies.onset import tables as onset_tables

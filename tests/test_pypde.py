@@ -1,6 +1,6 @@
-"""py-pde's solvers: compiled rates and readable ones, exact rates, stability."""
+"""The gas in py-pde: rates, compiled, readable and exact; stability; steady states, those of another grid."""
 from functools import partial
-from itertools import cycle
+from itertools import cycle, pairwise
 
 import numpy as np
 import pytest
@@ -8,6 +8,7 @@ import sympy
 from crowd import jacobian
 from pde.solvers import RungeKuttaSolver
 from plain_pypde import rate as readable_rate
+from plain_pypde import volume_nusselt
 
 from continuum.fluid import (
     EQUATIONS_OF_STATE,
@@ -21,13 +22,14 @@ from continuum.fluid import (
     stress,
     viscosity,
 )
-from continuum.linear import growth_rate
-from continuum.pypde.boussinesq import Boussinesq
+from continuum.gas import solve as compressible
 from continuum.pypde.gas import RHO, VX, VY, E, Gas
-from continuum.pypde.solve import StageLoop
-from continuum.pypde.solve import rate as compiled_rate
-from continuum.scene import RayleighBenard
+from continuum.pypde.gas_loop import rate as compiled_rate
+from continuum.pypde.solve import StageLoop, onto, solve
+from continuum.scene import RayleighBenard, Walls
+from continuum.steady import Steady, Time
 from studies.build.scenes import Tile
+from studies.kit.fits import richardson
 
 GAS = RayleighBenard(ra=5000, L=1.0)
 # every equation of state once, every transport law with one of them: each pair is compiled anew
@@ -35,29 +37,19 @@ every_fluid = pytest.mark.parametrize(("eos", "transport"), [*zip(
     EQUATIONS_OF_STATE.values(), cycle([ConstEta, ConstNu, PowerLaw]))], ids=EQUATIONS_OF_STATE)
 
 
-def layer(rows=8, ra=5000, pr=7) -> Boussinesq:
-    return Boussinesq(ra=ra, pr=pr, rows=rows)
-
-
-def rough(equation, ke=0.01) -> np.ndarray:
+def rough(gas: Gas, ke=0.01) -> np.ndarray:
     """Rolls with noise on every field; noise alone where nothing rolls."""
-    data = np.ones((4, *equation.grid.shape)) if isinstance(getattr(equation, "scene", None),
-                                                            Tile) else equation.rolls(ke)
-    data += 0.05*np.random.default_rng(1).standard_normal(data.shape)
-    return equation.repaired(data) if hasattr(equation, "repaired") else data
+    data = np.ones((4, *gas.grid.shape)) if isinstance(gas.scene, Tile) else gas.rolls(ke)
+    return gas.repaired(data + 0.05*np.random.default_rng(1).standard_normal(data.shape))
 
 
-def rate(equation, data: np.ndarray) -> np.ndarray:
-    return equation.evolution_rate(equation.state(data)).data
+def rate(gas: Gas, data: np.ndarray) -> np.ndarray:
+    return gas.evolution_rate(gas.state(data)).data
 
 
 @every_fluid
 def test_the_compiled_rates_of_the_gas_equal_the_readable_ones(eos, transport):
     same_rates(Gas(RayleighBenard(ra=5000, eos=eos, transport=transport, L=1.0), 8))
-
-
-def test_the_compiled_rates_of_the_layer_equal_those_of_py_pdes_operators():
-    same_rates(layer())
 
 
 def test_the_compiled_rates_without_plates_equal_the_readable_ones():
@@ -67,10 +59,10 @@ def test_the_compiled_rates_without_plates_equal_the_readable_ones():
     same_rates(Gas(Uneven(width=1.5, L=1.0, law=ConstEta(0.02, 0.03)), 8))
 
 
-def same_rates(equation):
-    data = rough(equation)
-    slow = readable_rate(equation, data)
-    for compiled in (compiled_rate(equation.loop, data), rate(equation, data)):
+def same_rates(gas):
+    data = rough(gas)
+    slow = readable_rate(gas, data)
+    for compiled in (compiled_rate(gas.loop, data), rate(gas, data)):
         # sums of some ten terms in another order: 7e-16 of the largest was measured
         np.testing.assert_allclose(compiled, slow, rtol=0, atol=1e-14*np.abs(slow).max())
 
@@ -126,40 +118,18 @@ def manufactured(scene):
     return tuple([sympy.lambdify((x, y), f, "numpy") for f in fs] for fs in (rates, (rho, *v, e)))
 
 
-def eigenvalues(equation) -> np.ndarray:
-    """Growth rates of all small disturbances of the motionless state, by central differences of the rate."""
-    rate = partial(compiled_rate, equation.loop)
-    return np.linalg.eigvals(jacobian(rate, equation.rolls(0.0), 1e-5))
-
-
-@pytest.fixture(scope="module")
-def spectra() -> dict:
-    return {rows: eigenvalues(layer(rows)) for rows in (8, 12)}
-
-
-def test_growth_near_onset_is_that_of_linear_theory(spectra):
-    exact = growth_rate(ra=5000, pr=7, k=np.pi)
-    coarse, fine = (spectra[rows].real.max() for rows in (8, 12))
-    limit = fine + (fine - coarse)/(12**2/8**2 - 1)
-    # the term of order h^4 is left over: 1.1e-3, where the errors of the grids are 1.4e-2 and 6.9e-3
-    assert limit == pytest.approx(exact, abs=2e-3)
-    # 2.06 on grids as coarse as these; first order would make it 1.5
-    assert (coarse - exact)/(fine - exact) == pytest.approx((12/8)**2, abs=0.25)
-
-
-@pytest.mark.parametrize("make", [layer, lambda: Gas(GAS, 8)], ids=["layer", "gas"])
-def test_the_step_limit_is_stable_and_not_far_below_what_is(make, spectra):
-    equation = make()
-    decays = spectra[8] if isinstance(equation, Boussinesq) else eigenvalues(equation)
+def test_the_step_limit_is_stable_and_not_far_below_what_is():
+    """Of all small disturbances of the motionless state, by central differences of the rate."""
+    gas = Gas(GAS, 8)
+    decays = np.linalg.eigvals(jacobian(partial(compiled_rate, gas.loop), gas.rolls(0.0), 1e-5))
     decays = decays[decays.real < 1e-6]         # convection itself grows
 
     def gain(dt):
         z = decays*dt
         return np.abs(1 + z + z**2/2 + z**3/6 + z**4/24).max()
 
-    assert gain(equation.step_limit()) <= 1 + 1e-5          # differences of the rate are good to 1e-6
-    # the gas is stable to 1.7 limits, the layer to 1.4
-    assert gain(2*equation.step_limit()) > 1.1
+    assert gain(gas.step_limit()) <= 1 + 1e-5       # differences of the rate are good to 1e-6
+    assert gain(2*gas.step_limit()) > 1.1           # it is stable to 1.7 limits
 
 
 def test_the_stage_loop_steps_like_py_pdes_runge_kutta():
@@ -168,3 +138,84 @@ def test_the_stage_loop_steps_like_py_pdes_runge_kutta():
     ends = [gas.solve(start, t_range=5*dt, dt=dt, tracker=None, solver=solver, backend="numpy").data
             for solver in (StageLoop, RungeKuttaSolver)]
     np.testing.assert_allclose(*ends, rtol=0, atol=1e-13)   # sums of numbers of order 1 in another order
+
+
+# --- steady states ------------------------------------------------------------------------------------------
+
+SIZES = (12, 16, 20)
+
+
+@pytest.fixture(scope="module")
+def gases() -> list:
+    """Solutions on SIZES, each started from the one before."""
+    solutions: list = []
+    for rows in SIZES:
+        start = {"start": solutions[-1]} if solutions else {}
+        solutions.append(solve(Gas(GAS, rows), until=Steady(rtol=1e-5), **start))
+    return solutions
+
+
+def test_the_gas_is_that_of_the_other_grid(gases):
+    """The limits agree within the sum of their uncertainties; order 2 is seen."""
+    both = gases, compressible.steady_on(GAS, SIZES)
+    for name in ("ke", "nu"):
+        ours, theirs = (richardson([getattr(s, name) for s in solutions], SIZES) for solutions in both)
+        assert abs(ours.limit - theirs.limit) < ours.error + theirs.error
+        assert ours.error < 0.01*ours.limit
+        assert ours.order == pytest.approx(2, abs=0.15)     # 1.89 to 2.07 on grids as coarse as these
+
+
+def test_steady_states_carry_the_same_heat_at_every_height(gases):
+    for s in gases:
+        assert s.converged and s.rolls == 2 and s.compile_s > 0 and s.cpu_s > 0
+        assert s.nusselt[0] == pytest.approx(s.nusselt[1], rel=1e-4)    # 2e-5: e is no conserved sum
+    spread = [abs(volume_nusselt(s.equation, s.state) - s.nu) for s in gases]
+    # 3e-4 at 12 rows; of order 1.9 to 2.3
+    assert all(coarse/fine == pytest.approx((b/a)**2, rel=0.15)
+               for (coarse, fine), (a, b) in zip(pairwise(spread), pairwise(SIZES))) and spread[0] < 1e-3
+
+
+def test_mass_is_conserved_to_round_off(gases):
+    for s in gases:
+        # round-off of every step, in no preferred direction
+        assert abs(s.mass_drift) < 1e-15*np.sqrt(s.steps)
+
+
+def test_a_solution_on_another_grid_keeps_its_energy(gases):
+    fine, wide = gases[-1], Gas(GAS, 40)
+    # splines go through their points
+    np.testing.assert_allclose(onto(fine.equation, fine), fine.state, atol=1e-12)
+    # the sum of v^2 over a grid is good to h^2: 2e-4
+    assert wide.measure(onto(wide, fine))[0] == pytest.approx(fine.series.ke[-1], rel=1e-3)
+
+
+@pytest.mark.parametrize(("make", "message"), [
+    (lambda: Gas(GAS, 7), "rows must be at least 8, got 7"),
+    (lambda: Gas(RayleighBenard(ra=5000, sides=Walls()), 8), "continuum.gas.solve for walls"),
+    (lambda: Gas(GAS, 8).rolls(-1.0), "cannot be negative, got -1"),
+    (lambda: solve(Gas(GAS, 8), dt=1.0), "not above the stability limit 0.0"),
+    (lambda: solve(Gas(GAS, 8), dt=-1.0), "dt = -1 must be positive"),
+], ids=["odd", "walls", "negative energy", "step", "negative step"])
+def test_bad_input_is_told(make, message):
+    with pytest.raises(ValueError, match=message):
+        make()
+
+
+def test_a_start_from_another_box_is_told(gases):
+    with pytest.raises(ValueError, match="start from rolls or from the same box"):
+        solve(Gas(RayleighBenard(ra=5000), 8), start=gases[0])
+
+
+@pytest.mark.filterwarnings("ignore::RuntimeWarning")    # overflow is what the test makes
+def test_divergence_is_told_with_time_and_place():
+    gas = Gas(GAS, 8)
+    with pytest.raises(compressible.DivergedError, match=r"before t = .* in cell \(.*IdealGas.*smaller dt"):
+        solve(gas, start=gas.rolls(1e3))
+
+
+def test_an_interrupt_is_not_taken_for_an_end():
+    def stop(fraction):
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        solve(Gas(GAS, 8), until=Time(0.1, samples=1), progress=stop)

@@ -2,7 +2,7 @@
 import numpy as np
 import pytest
 
-from continuum.richardson import richardson
+from studies.kit.fits import richardson
 
 SIZES = [20, 30, 48]    # no common ratio
 

@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 import plain
 import pytest
-from crowd import advance, crowd, everywhere, lattice, rates, total_energy
+from crowd import advance, crowd, everywhere, lattice, total_energy
 
 from continuum.fluid import ConstEta, IdealGas, energy, pressure, temperature
 from particles.smooth.spam import Spam
@@ -80,19 +80,6 @@ def atoms():
 def potential(state):
     """sum_j w(r_ij) of each particle, itself included."""
     return plain.rates(NEWTON, state).rho
-
-
-def test_forces_are_those_of_a_pair_potential():
-    # -d/dr of sum_{i<j} 2 w(r_ij) by central differences: step^2 w''' ~ 1e-10, round-off 1e-16 1e2/step ~
-    # 1e-9
-    state, step = atoms(), 1e-5
-    force = rates(NEWTON, state)[2:4]
-    for row in (0, 1):
-        for i in (0, 37, 99):
-            moved = np.stack([state, state])
-            moved[:, row, i] += (step, -step)
-            slope = (potential(moved[0]).sum() - potential(moved[1]).sum())/(2*step)
-            assert force[row, i] == pytest.approx(-slope, abs=1e-8)
 
 
 def test_internal_energy_is_the_potential():

@@ -5,19 +5,19 @@ import numpy as np
 import pytest
 
 from continuum.fluid import ConstEta, IdealGas
-from particles.integral import covariance
-from particles.integral.covariance import jacobian, steady, waves
 from particles.integral.dih import Mixed
 from particles.integral.edge_makers import MAKERS
 from particles.integral.edges import between_plates
 from particles.integral.layer import Layer
 from particles.integral.points import jittered, lattice
 from particles.integral.thermal import STAGED, Thermal, ThreeStage
-from particles.limits import limit_of
+from particles.limits import jacobian, limit_of
 from particles.run import Plan, run
 from particles.threads import Threads
 from particles.weights import Lucy
+from studies.noise import covariance
 from studies.noise.below_onset import layer_noise
+from studies.noise.covariance import steady, waves
 from studies.noise.partners import equilibrium, noise, transport
 
 

@@ -11,11 +11,10 @@ upper row of v_y lies on the cold plate and stays zero; on a torus, which has no
 from typing import Any
 
 import numpy as np
-from pde import CartesianGrid
+from pde import CartesianGrid, FieldCollection, PDEBase, ScalarField
 
 from continuum.fluid import energy, sound_speed, valid
-from continuum.pypde.gas_loop import RHO, VX, VY, E, GasLoop, Mesh, coefficients, fill
-from continuum.pypde.solve import Equation
+from continuum.pypde.gas_loop import RHO, VX, VY, E, GasLoop, Mesh, coefficients, fill, rate
 from continuum.scene import ROLL_ENERGY, Periodic, Torus, columns_of
 from continuum.steady import RK4_DECAY, RK4_SOUND
 
@@ -23,9 +22,10 @@ from continuum.steady import RK4_DECAY, RK4_SOUND
 HALF_UP = np.array([[0, 0], [1, 0], [0, 1], [0, 0]])/2
 
 
-class Gas(Equation):
+class Gas(PDEBase):
     """A scene of `continuum.scene` between periodic sides, or on a torus, on `rows` rows of square cells."""
 
+    explicit_time_dependence = False
     names = ("rho", "v_x", "v_y", "e")
 
     def __init__(self, scene: Any, rows: int):
@@ -39,6 +39,14 @@ class Gas(Equation):
         self.grid = CartesianGrid(sides, (columns, rows), periodic=(True, torus))
         box = Mesh(self.h, scene.g, scene.T_hot, scene.T_cold, torus)
         self.loop = GasLoop(scene.eos, scene.law, box)
+
+    def evolution_rate(self, state: Any, t: float = 0) -> Any:
+        """The rates for py-pde's own steppers."""
+        return self.state(rate(self.loop, np.ascontiguousarray(state.data)))
+
+    def state(self, data: np.ndarray) -> FieldCollection:
+        """Fields of py-pde from an array (fields, columns, rows)."""
+        return FieldCollection([ScalarField(self.grid, f) for f in data], labels=list(self.names))
 
     @property
     def viscous_time(self) -> float:

@@ -11,7 +11,6 @@ import numpy as np
 from continuum.fluid import conductivity, pressure, stress, temperature, viscosity
 from continuum.gas.loop import BULK_VISCOSITY
 from continuum.jit import formula, jit
-from continuum.pypde.solve import rates
 
 RHO, VX, VY, E, T, ETA, K, SXX, SYY, SXY = range(10)
 
@@ -26,7 +25,7 @@ class Mesh(NamedTuple):
 
 
 class GasLoop(NamedTuple):
-    """What `solve.rates` takes: fluid, transport law, box."""
+    """What `rate` takes: fluid, transport law, box."""
     eos: Any
     law: Any
     box: Mesh
@@ -104,22 +103,11 @@ def compress(box, S, i, j):
 
 
 @formula
-def carry_x(box, S, i, j):
-    """v.grad v_x on the right side of a cell."""
-    u, v = S[VX], S[VY]
+def carry(box, u, v, i, j):
+    """v.grad u of the component u along i, on that side of a cell; v is the other one."""
     along = (u[i + 1, j] + u[i, j])*(u[i + 1, j] - u[i, j]) + (u[i, j] + u[i - 1, j])*(u[i, j] - u[i - 1, j])
     across = ((v[i, j] + v[i + 1, j])*(u[i, j + 1] - u[i, j])
               + (v[i, j - 1] + v[i + 1, j - 1])*(u[i, j] - u[i, j - 1]))
-    return 0.25*(along + across)/box.h
-
-
-@formula
-def carry_y(box, S, i, j):
-    """v.grad v_y on the upper side of a cell."""
-    u, v = S[VX], S[VY]
-    along = (v[i, j + 1] + v[i, j])*(v[i, j + 1] - v[i, j]) + (v[i, j] + v[i, j - 1])*(v[i, j] - v[i, j - 1])
-    across = ((u[i, j] + u[i, j + 1])*(v[i + 1, j] - v[i, j])
-              + (u[i - 1, j] + u[i - 1, j + 1])*(v[i, j] - v[i - 1, j]))
     return 0.25*(along + across)/box.h
 
 
@@ -133,17 +121,10 @@ def carry_e(box, S, i, j):
 
 
 @formula
-def push_x(box, S, i, j):
-    """(div (sigma - P))_x/rho on the right side of a cell."""
-    force = (S[SXX, i + 1, j] - S[SXX, i, j]) + (S[SXY, i, j] - S[SXY, i, j - 1])
-    return 2*force/(S[RHO, i, j] + S[RHO, i + 1, j])/box.h
-
-
-@formula
-def push_y(box, S, i, j):
-    """(div (sigma - P))_y/rho on the upper side of a cell."""
-    force = (S[SYY, i, j + 1] - S[SYY, i, j]) + (S[SXY, i, j] - S[SXY, i - 1, j])
-    return 2*force/(S[RHO, i, j] + S[RHO, i, j + 1])/box.h
+def push(box, normal, shear, rho, i, j):
+    """div (sigma - P)/rho along i on that side of a cell."""
+    force = (normal[i + 1, j] - normal[i, j]) + (shear[i, j] - shear[i, j - 1])
+    return 2*force/(rho[i, j] + rho[i + 1, j])/box.h
 
 
 @formula
@@ -172,19 +153,23 @@ def conduct(box, S, i, j):
     return 0.5*(along + across)/box.h**2
 
 
-@rates.of(GasLoop)
-def _(loop, data, out):
+@jit
+def rate(loop, data):
+    """d/dt of the state, a new array."""
     (eos, law, box), (nx, ny) = loop, data.shape[1:]
-    S = np.empty((10, nx + 2, ny + 2))
+    S, out = np.empty((10, nx + 2, ny + 2)), np.empty_like(data)
     fill(box, data, S)
     coefficients(eos, law, box, S)
     stresses(eos, box, S)
     for i in range(1, nx + 1):
         for j in range(1, ny + 1):
             out[RHO, i - 1, j - 1] = compress(box, S, i, j)
-            out[VX, i - 1, j - 1] = push_x(box, S, i, j) - carry_x(box, S, i, j)
+            out[VX, i - 1, j - 1] = (push(box, S[SXX], S[SXY], S[RHO], i, j)
+                                     - carry(box, S[VX], S[VY], i, j))
             gained = work(box, S, i, j) + conduct(box, S, i, j)
             out[E, i - 1, j - 1] = gained/S[RHO, i, j] - carry_e(box, S, i, j)
         out[VY, i - 1, ny - 1] = 0.0
         for j in range(1, ny + (1 if box.torus else 0)):
-            out[VY, i - 1, j - 1] = push_y(box, S, i, j) - carry_y(box, S, i, j) - box.g
+            out[VY, i - 1, j - 1] = (push(box, S[SYY].T, S[SXY].T, S[RHO].T, j, i)
+                                     - carry(box, S[VY].T, S[VX].T, j, i) - box.g)
+    return out

@@ -1,45 +1,27 @@
-"""A solver for the Boussinesq layer and the compressible gas with py-pde.
+"""A solver for the compressible gas with py-pde.
 
-    solve(Gas(RayleighBenard(ra=1e4), rows=32))
-    solve(Boussinesq(ra=5000, pr=7, rows=32), until=Time(100))
+    solve(Gas(RayleighBenard(ra=1e4), rows=32), until=Time(100))
 
 Second order in space, different from the other grids here in unknowns and placing.
 """
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from math import inf
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
-from pde import FieldCollection, PDEBase, ScalarField
 from pde.solvers.base import SolverBase
 from pde.trackers import ConstantInterrupts, FinishedSimulation
 from pde.trackers.base import TrackerBase
 from scipy.interpolate import RectBivariateSpline
 
 from continuum.gas.solve import DivergedError
-from continuum.jit import generic, jit
+from continuum.jit import jit
+from continuum.pypde.gas_loop import rate
 from continuum.steady import STILL, GridRun, Steady, of_samples, steps_between
 
 Until = Any             # Steady or Time of continuum.steady
 Progress = Callable[[float], None]
-
-
-class Equation(PDEBase):
-    """An equation of py-pde with compiled rates: `rates` of its `loop`. names : of the fields of a state."""
-
-    explicit_time_dependence = False
-    names: ClassVar[tuple[str, ...]]
-    grid: Any
-    loop: Any
-
-    def evolution_rate(self, state: Any, t: float = 0) -> Any:
-        """The rates for py-pde's own steppers."""
-        return self.state(rate(self.loop, np.ascontiguousarray(state.data)))
-
-    def state(self, data: np.ndarray) -> FieldCollection:
-        """Fields of py-pde from an array (fields, columns, rows)."""
-        return FieldCollection([ScalarField(self.grid, f) for f in data], labels=list(self.names))
 
 
 class Watch(TrackerBase):
@@ -70,7 +52,7 @@ class StageLoop(SolverBase):
     """Classical Runge-Kutta in a loop kept on disk: what py-pde makes compiles at every call."""
 
     name = "runge-kutta stage loop"
-    pde: Equation
+    pde: Any
 
     def _make_inner_stepper(self, state: Any) -> Callable:
         loop, dt = self.pde.loop, self.info["dt"]
@@ -83,19 +65,6 @@ class StageLoop(SolverBase):
             return t_start + count*dt
 
         return stepper
-
-
-@generic
-def rates(loop, data, out):
-    """Write d/dt of the state `data`; `loop` holds the numbers of an equation, its type says which one."""
-
-
-@jit
-def rate(loop, data):
-    """d/dt of the state, a new array."""
-    out = np.empty_like(data)
-    rates(loop, data, out)
-    return out
 
 
 @jit
@@ -120,10 +89,7 @@ def advance(data, rate, to_stage, weight, stage, total):
 
 @dataclass(frozen=True, kw_only=True)
 class PdeSolution(GridRun):
-    """What a run ended with, in free-fall units for the Boussinesq layer, in those of the scene for the gas.
-
-    nusselt : of the lower and of the upper plate.
-    """
+    """What a run ended with, in the units of the scene. nusselt : of the lower and of the upper plate."""
     equation: Any
     state: np.ndarray = field(repr=False)
     nusselt: tuple[float, float]
@@ -136,7 +102,7 @@ class PdeSolution(GridRun):
 
 def solve(equation: Any, *, until: Until = Steady(), start: PdeSolution | np.ndarray | None = None,  # noqa: B008
           dt: float | None = None, progress: Progress | None = None) -> PdeSolution:
-    """Solve an equation: Boussinesq or Gas.
+    """Solve an equation, a `Gas`.
 
     until : Steady(rtol=...) or Time(t_end) of `continuum.steady`.
     start : a solution of the same box on any grid, or a state (fields, columns, rows); KHP95's rolls if none.
@@ -173,12 +139,11 @@ def count_rolls(v: np.ndarray) -> int:
 def onto(equation: Any, start: PdeSolution) -> np.ndarray:
     """The state of a solution on another grid: cubic splines through its points and ghosts."""
     old = start.equation
-    if type(old) is not type(equation) or not np.allclose(old.grid_box, equation.grid_box):
-        raise ValueError(f"start is a {type(old).__name__} in a box {old.grid_box}, the equation a "
-                         f"{type(equation).__name__} in {equation.grid_box}: start from rolls or from the "
-                         "same box")
+    if not np.allclose(old.grid_box, equation.grid_box):
+        raise ValueError(f"start is in a box {old.grid_box}, the equation in {equation.grid_box}: start from "
+                         "rolls or from the same box")
     parts = []
     for n, f in enumerate(old.padded(start.state)[:len(start.state)]):
         (a, b), (x, y) = old.points(n), equation.points(n)
         parts.append(RectBivariateSpline(a, b, f)(x[1:-1], y[1:-1]))
-    return equation.repaired(np.array(parts)) if hasattr(equation, "repaired") else np.array(parts)
+    return equation.repaired(np.array(parts))

@@ -3,7 +3,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from particles.pairs import rate, zero
+from particles.pairs import pair_term
 
 
 class Static(NamedTuple):
@@ -12,16 +12,13 @@ class Static(NamedTuple):
     a: float
 
 
-@rate.of(Static)
+@pair_term(Static, 6)
 def _(term, a, b, ab):
     """U'' + (d - 1) U'/r = a - (d - 1) f"""
     fx, fy, fz = ab.f*ab.dx, ab.f*ab.dy, ab.f*ab.dz
     friction = ab.g*(ab.dx*(a.vx - b.vx) + ab.dy*(a.vy - b.vy) + ab.dz*(a.vz - b.vz))
     return (fx, fy, fz, term.a - (term.d - 1)*ab.f, fx*ab.dx + fy*ab.dy + fz*ab.dz,
             (ab.f - friction)*ab.dx*ab.dy)
-
-
-zero.of(Static)(lambda term: (0.0,)*6)
 
 
 def static_sums(sums: Any, state: np.ndarray) -> np.ndarray:

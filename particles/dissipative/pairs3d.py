@@ -6,7 +6,7 @@ import numpy as np
 from continuum.jit import generic, jit
 from particles.neighbours import u32, u64
 from particles.noise import uniform_of_pair
-from particles.pairs import pair_at, rate, sweep, zero
+from particles.pairs import pair_at, pair_term, sweep
 
 Record = np.dtype([*((name, "f8") for name in ("x", "y", "z", "vx", "vy", "vz")),
                    ("id", "u8"), ("image", "u8")])
@@ -78,14 +78,11 @@ class Force(NamedTuple):
     """All of the force."""
 
 
-@rate.of(Force)
+@pair_term(Force, 3)
 def _(term, a, b, ab):
     """[f - g r.v_ab] r"""
     c = ab.f - ab.g*(ab.dx*(a.vx - b.vx) + ab.dy*(a.vy - b.vy) + ab.dz*(a.vz - b.vz))
     return c*ab.dx, c*ab.dy, c*ab.dz
-
-
-zero.of(Force)(lambda term: (0.0,)*3)
 
 
 @jit

@@ -106,10 +106,10 @@ class Pairwise:
         found = along(edges, means(coefficients, edges.i, edges.j), take(flow, edges.i), take(flow, edges.j))
         if self.mended:
             slope = NestedFluxes().gradient(edges, flow.v)
-            F = lacking(coefficients, flow.v, slope)
+            tau = transposed(coefficients, slope)
+            F = np.einsum("nab,nb->na", tau, flow.v)
             found = found._replace(energy=found.energy - (edges.S*(F[edges.i] + F[edges.j])).sum(axis=1)/2)
             if np.ptp(coefficients.eta) > 0 or np.ptp(coefficients.zeta) > 0:
-                tau = transposed(coefficients, slope)
                 push = np.einsum("ea,eab->eb", edges.S, tau[edges.i] + tau[edges.j])/2
                 found = found._replace(momentum=found.momentum - push)
         return found
@@ -148,11 +148,6 @@ def along(edges: Any, coefficients: Coefficients, a: Flow, b: Flow) -> EdgeFluxe
     force = edges.k[:, None]*(B[:, None]*dv + A[:, None]*e*(e*dv).sum(axis=1)[:, None])
     work, heat = (force*(a.v + b.v)).sum(axis=1)/2, edges.k*kappa*(b.T - a.T)
     return EdgeFluxes(np.zeros(len(heat)), -force, -work - heat)
-
-
-def lacking(coefficients: Coefficients, v: np.ndarray, slope: np.ndarray) -> np.ndarray:
-    """F = B [(v.grad) v - v div v], B of `frictions`, (n, d); slope[n, a, b] = d_a v_b."""
-    return np.einsum("nab,nb->na", transposed(coefficients, slope), v)
 
 
 def transposed(coefficients: Coefficients, slope: np.ndarray) -> np.ndarray:

@@ -6,7 +6,7 @@ import numpy as np
 from continuum.jit import generic, jit
 from particles.integral.exchange import At, Convection, Listing, Pressure, Stage, pressure_of, stages_of
 from particles.integral.rr98_moving_plain import Crossed, Powers
-from particles.pairs import Edge, rate, zero
+from particles.pairs import Edge, pair_term, rate, zero
 from particles.threads import Threads
 
 
@@ -74,10 +74,6 @@ def both(bracket, eos, a, b):
 
 
 zero.of(OverPairs)(lambda term: zero(term.term))
-zero.of(Drifting)(lambda term: (0.0,)*5)
-zero.of(BracketPressure)(lambda term: (0.0,)*4)
-zero.of(Dilution)(lambda term: (0.0,)*4)
-rate.of(Dilution)(lambda term, a, b, ab: (0.0, 0.0, 0.0, 0.0))
 growth.of(LiteralDrift)(lambda motion, a, b, ab: 0.0)
 growth.of(ConvectiveDrift)(lambda motion, a, b, ab: ab.sx*b.vx + ab.sy*b.vy)
 growth.of(ConstantMassDrift)(lambda motion, a, b, ab: ab.sx*b.vx + ab.sy*b.vy - (ab.sx*a.vx + ab.sy*a.vy))
@@ -91,12 +87,17 @@ def _(term, a, b, ab):
     return rate(term.term, a, b, Edge(VV*ab.wx, VV*ab.wy, k))
 
 
-@rate.of(Drifting)
+@pair_term(Dilution, 4)
+def _(term, a, b, ab):
+    return 0.0, 0.0, 0.0, 0.0
+
+
+@pair_term(Drifting, 5)
 def _(term, a, b, ab):
     return (*rate(term.exchanged, a, b, ab), growth(term.motion, a, b, ab))
 
 
-@rate.of(BracketPressure)
+@pair_term(BracketPressure, 4)
 def _(term, a, b, ab):
     to_b, to_a = ab.sx*b.vx + ab.sy*b.vy, ab.sx*a.vx + ab.sy*a.vy
     P_ab, P_ba = both(term.bracket, term.eos, a, b)

@@ -121,9 +121,8 @@ def _fastest(V: np.ndarray, G: list[sparse.csr_array], laplacian: sparse.csr_arr
     return float(sound[0]), float(-spread[0])
 
 
-def mirror(d: int) -> np.ndarray:
-    """(d,) signs of a vector mirrored in a plate across the last axis."""
-    return np.array([1.0]*(d - 1) + [-1.0])
+#: signs of a vector mirrored in a plate across y
+MIRROR = np.array([1.0, -1.0])
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -154,62 +153,43 @@ def fastest(edges: Edges, beyond: Beyond) -> tuple[float, float]:
 
 
 def symmetric(edges: Edges, a: float) -> Edges:
-    """Mean of edges and their mirror image in the last axis; point m + n/2 is the image of point m."""
-    half, turn = edges.n//2, mirror(edges.d)
+    """Mean of edges and their mirror image across y; point m + n/2 is the image of point m."""
+    half = edges.n//2
     i, j = ((q + half) % edges.n for q in (edges.i, edges.j))
     joined = np.concatenate
-    return combined(joined([edges.i, i]), joined([edges.j, j]), joined([edges.S, edges.S*turn])/2,
-                    joined([edges.k]*2)/2, joined([edges.apart, edges.apart*turn]),
+    return combined(joined([edges.i, i]), joined([edges.j, j]), joined([edges.S, edges.S*MIRROR])/2,
+                    joined([edges.k]*2)/2, joined([edges.apart, edges.apart*MIRROR]),
                     (edges.V + np.roll(edges.V, half))/2, a)
 
 
 def check_between(x: np.ndarray, height: float) -> None:
-    """Refuse points (n, d) whose mirror images would be among the others, or would be they themselves."""
-    across, axis = x[:, -1], "xyz"[x.shape[1] - 1]
-    out = np.flatnonzero(~(np.abs(across) < height/2*(1 - 1e-9)))
+    """Refuse points (n, 2) whose mirror images would be among the others, or would be they themselves."""
+    out = np.flatnonzero(~(np.abs(x[:, 1]) < height/2*(1 - 1e-9)))
     if len(out):
         i = out[0]
-        raise ValueError(f"point {i} at {axis} = {across[i]:g} is not between the plates {axis} = "
-                         f"-+{height/2:g} ({len(out)} of {len(x)} are not), where its mirror image would be "
-                         "another point's or its own: move it inside")
+        raise ValueError(f"point {i} at y = {x[i, 1]:g} is not between the plates y = -+{height/2:g} "
+                         f"({len(out)} of {len(x)} are not), where its mirror image would be another point's "
+                         "or its own: move it inside")
 
 
-def check_widths(x: np.ndarray, width: Any) -> np.ndarray:
-    """Widths (d - 1,) of the box along the plates; refuses all but positive numbers, one an axis."""
-    if x.ndim != 2 or x.shape[1] not in (1, 2, 3):
-        raise ValueError(f"points have the shape {x.shape}, which must be (n, d) with d = 1, 2, 3: on a line "
-                         "give x[:, None]")
-    widths, d = np.atleast_1d(np.asarray(width, float)), x.shape[1]
-    if widths.shape != (d - 1,) or not ((widths > 0) & np.isfinite(widths)).all():
-        raise ValueError(f"the box is {width} wide, which must be "
-                         f"{('()', 'a positive number', 'two positive numbers')[d - 1]} in {d}D: one for "
-                         "each axis along the plates, which are across the last")
-    return widths
-
-
-def between_plates(make: Callable[[Points, Any], Edges], x: np.ndarray, width: Any, height: float,
+def between_plates(make: Callable[[Points, Any], Edges], x: np.ndarray, width: float, height: float,
                    weight: Any) -> tuple[Edges, Beyond]:
-    """Edges among points x (n, d) and to mirror images in the plates -+ height/2 of the last axis.
+    """Edges among points x (n, 2), periodic in x, and to mirror images in the plates y = -+ height/2.
 
-    width : of the box along the plates: () in 1D, a number in 2D, a pair in 3D.
     The maker sees points and images in a periodic box twice as high; what it makes is averaged with its own
-    mirror image, since a triangulation has to choose one of two diagonals. In 3D it finds flat simplices:
-    take edges of a weight. Raises ValueError: a point is on a plate or beyond it, or the width is not that of
-    such a box; what makers refuse.
+    mirror image, since a triangulation has to choose one of two diagonals. Raises ValueError: a point is on a
+    plate or beyond it; what makers refuse.
     """
-    widths = check_widths(x, width)
     check_between(x, height)
-    n, d = x.shape
-    turn, shift = mirror(d), np.array([0.0]*(d - 1) + [height/2])
-    # -height < last axis < 0; the upper plate is at 0, the lower at the edge
-    lower = x - shift
-    points = of_positions(np.concatenate([lower, lower*turn]), (*widths, 2*height))
+    n = len(x)
+    # -height < y < 0; the upper plate is at 0, the lower at the edge
+    lower = x - np.array([0.0, height/2])
+    points = of_positions(np.concatenate([lower, lower*MIRROR]), (width, 2*height))
     try:
         edges = symmetric(make(points, weight), points.a)
     except (ValueError, ArithmeticError) as error:
-        flat = "; three points and their images lie on one sphere, so that only a weight makes edges in 3D"
         error.add_note(f"asked for were edges of {n} points between plates and of their mirror images, point "
-                       f"m + {n} that of point m, in a box twice as high{flat if d == 3 else ''}")
+                       f"m + {n} that of point m, in a box twice as high")
         raise
     ours, images = (edges.i < n) & (edges.j < n), (edges.i < n) != (edges.j < n)
     inner = Edges(**{name: getattr(edges, name)[ours] for name in ("i", "j", "S", "k", "apart")},
@@ -217,5 +197,5 @@ def between_plates(make: Callable[[Points, Any], Edges], x: np.ndarray, width: A
     back = np.where(edges.i[images] < n, 1.0, -1.0)
     i, parent = np.minimum(edges.i, edges.j)[images], np.maximum(edges.i, edges.j)[images] - n
     S, apart = back[:, None]*edges.S[images], back[:, None]*edges.apart[images]
-    upper = lower[i, -1] + apart[:, -1] > 0
+    upper = lower[i, 1] + apart[:, 1] > 0
     return inner, Beyond(i=i, parent=parent, S=S, k=edges.k[images], apart=apart, plate=upper.astype(int))

@@ -11,7 +11,7 @@ import numpy as np
 
 from continuum.fluid import energy, pressure
 from continuum.jit import OPTIONS, formula, overload
-from particles.pairs import rate, sweep, zero
+from particles.pairs import pair_term, rate, sweep, zero
 from particles.threads import Threads
 
 
@@ -38,13 +38,8 @@ class Conduction(NamedTuple):
 #: friction and heat as Eq. 51 has them; heat first costs 15 % more where pairs divide, see `Listing`
 PRINTED = (Friction(), Conduction())
 
-zero.of(Convection)(lambda term: (0.0, 0.0, 0.0, 0.0))
-zero.of(Pressure)(lambda term: (0.0, 0.0, 0.0, 0.0))
-zero.of(Friction)(lambda term: (0.0, 0.0, 0.0, 0.0))
-zero.of(Conduction)(lambda term: (0.0, 0.0, 0.0, 0.0))
 
-
-@rate.of(Convection)
+@pair_term(Convection, 4)
 def _(term, a, b, ab):
     to_b, to_a = ab.sx*b.vx + ab.sy*b.vy, ab.sx*a.vx + ab.sy*a.vy       # S.v/2
     from_a, from_b = a.rho*to_b, b.rho*to_a
@@ -56,7 +51,7 @@ def pressure_of(eos, rho, T):
     return pressure(eos, rho, energy(eos, rho, T))
 
 
-@rate.of(Pressure)
+@pair_term(Pressure, 4)
 def _(term, a, b, ab):
     to_b, to_a = ab.sx*b.vx + ab.sy*b.vy, ab.sx*a.vx + ab.sy*a.vy
     P_ab, P_ba = pressure_of(term.eos, a.rho, b.T) + b.hydro, pressure_of(term.eos, b.rho, a.T)
@@ -64,13 +59,13 @@ def _(term, a, b, ab):
     return 0.0, -ab.sx*P, -ab.sy*P, -P_ab*to_a - P_ba*to_b
 
 
-@rate.of(Friction)
+@pair_term(Friction, 4)
 def _(term, a, b, ab):
     f, du, dv = 0.5*term.share*(a.eta + b.eta)*ab.k, b.ux - a.ux, b.uy - a.uy
     return 0.0, f*du, f*dv, 0.5*f*(du*(a.ux + b.ux) + dv*(a.uy + b.uy))
 
 
-@rate.of(Conduction)
+@pair_term(Conduction, 4)
 def _(term, a, b, ab):
     return 0.0, 0.0, 0.0, 0.5*term.share*(a.k + b.k)*ab.k*(b.Td - a.Td)
 

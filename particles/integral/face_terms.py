@@ -6,7 +6,7 @@ import numpy as np
 from continuum.fluid import conductivity, pressure, sound_speed, temperature, viscosity
 from continuum.jit import jit
 from particles.integral.exchange import Listing
-from particles.pairs import rate, zero
+from particles.pairs import pair_term, rate
 
 #: convection and pressure see vx .. theta; friction and heat ux, uy, Td; F mends the heating; g is grad P'
 Point = np.dtype([(name, "f8") for name in ("vx", "vy", "P", "rho", "e", "per_c", "shift_x", "shift_y",
@@ -25,17 +25,13 @@ class FaceExchange(NamedTuple):
     transport: Listing
 
 
-zero.of(FaceDifferences)(lambda term: (0.0,)*6)
-zero.of(FaceExchange)(lambda term: (0.0,)*6)
-
-
-@rate.of(FaceDifferences)
+@pair_term(FaceDifferences, 6)
 def _(term, a, b, ab):
     du, dv, dP = b.ux - a.ux, b.uy - a.uy, b.P - a.P
     return ab.sx*du, ab.sy*du, ab.sx*dv, ab.sy*dv, ab.sx*dP, ab.sy*dP
 
 
-@rate.of(FaceExchange)
+@pair_term(FaceExchange, 6)
 def _(term, a, b, ab):
     sx, sy, k = ab.sx, ab.sy, ab.k
     to_a, to_b = sx*a.vx + sy*a.vy, sx*b.vx + sy*b.vy

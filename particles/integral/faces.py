@@ -15,7 +15,7 @@ import numpy as np
 from continuum.jit import jit
 from particles.lists import PairLists, ghosts_of
 from particles.neighbours import u64
-from particles.pairs import Faces, rate, sweep, zero
+from particles.pairs import Faces, pair_term, sweep
 
 #: the solution of the equations for faces
 POTENTIALS = ("phi_x", "psi_xx", "psi_xy", "phi_y", "psi_yx", "psi_yy")
@@ -27,10 +27,7 @@ class Closing(NamedTuple):
     """Closure and moments of k [phi_j - phi_i + (psi_i + psi_j).x_ij], for S_x and S_y."""
 
 
-zero.of(Closing)(lambda term: (0.0,)*6)
-
-
-@rate.of(Closing)
+@pair_term(Closing, 6)
 def _(term, a, b, ab):
     gx = ab.k*(b.phi_x - a.phi_x + (a.psi_xx + b.psi_xx)*ab.dx + (a.psi_xy + b.psi_xy)*ab.dy)
     gy = ab.k*(b.phi_y - a.phi_y + (a.psi_yx + b.psi_yx)*ab.dx + (a.psi_yy + b.psi_yy)*ab.dy)

@@ -13,7 +13,7 @@ import numpy as np
 from continuum.fluid import IdealGas, conductivity, temperature, viscosity
 from continuum.jit import jit, jit_records
 from particles.neighbours import u64
-from particles.pairs import Block, Stored, rate, sweep, zero
+from particles.pairs import Block, Stored, pair_term, sweep
 
 #: what a neighbour gives, two vectors of four: for S all but w; for k u, v and w = eta u^2/2 + kappa T
 Given = np.dtype([(name, "f8") for name in ("rho", "mx", "my", "eps", "T", "u", "v", "w")])
@@ -29,11 +29,7 @@ class LackSums(NamedTuple):
     """sum S.F."""
 
 
-zero.of(ProductSums)(lambda term: (0.0,)*20)
-zero.of(LackSums)(lambda term: (0.0,))
-
-
-@rate.of(ProductSums)
+@pair_term(ProductSums, 20)
 def _(term, a, b, ab):
     x, y, k = ab.sx, ab.sy, ab.k
     rho, mx, my, eps = b.rho - a.rho, b.mx - a.mx, b.my - a.my, b.eps - a.eps
@@ -42,7 +38,7 @@ def _(term, a, b, ab):
             k*u, k*v, k*w)
 
 
-@rate.of(LackSums)
+@pair_term(LackSums, 1)
 def _(term, a, b, ab):
     return (ab.sx*(b.Fx - a.Fx) + ab.sy*(b.Fy - a.Fy),)
 

@@ -8,7 +8,7 @@ from continuum.jit import jit
 from particles.integral.dih import check_share
 from particles.integral.exchange import At, Conduction, Friction, Stage, stages_of
 from particles.integral.transposed_stress import Mending
-from particles.pairs import rate, sweep, zero
+from particles.pairs import pair_term, sweep
 from particles.threads import Threads
 
 #: stress, -Q, and the velocity that friction sees
@@ -28,19 +28,18 @@ class Currents(NamedTuple):
     """Stress and heat current of the points, over edges: momentum and energy    [Eqs 37, 38]"""
 
 
-zero.of(NestedTransport)(lambda term: (0.0,)*4)
-zero.of(Slopes)(lambda term: (0.0,)*6)
-zero.of(Currents)(lambda term: (0.0,)*3)
-rate.of(NestedTransport)(lambda term, a, b, ab: (0.0, 0.0, 0.0, 0.0))
+@pair_term(NestedTransport, 4)
+def _(term, a, b, ab):
+    return 0.0, 0.0, 0.0, 0.0
 
 
-@rate.of(Slopes)
+@pair_term(Slopes, 6)
 def _(term, a, b, ab):
     du, dv, dT = b.ux - a.ux, b.uy - a.uy, b.Td - a.Td
     return ab.sx*du, ab.sy*du, ab.sx*dv, ab.sy*dv, ab.sx*dT, ab.sy*dT
 
 
-@rate.of(Currents)
+@pair_term(Currents, 3)
 def _(term, a, b, ab):
     ax, ay = ab.sx*a.xx + ab.sy*a.yx, ab.sx*a.xy + ab.sy*a.yy
     bx, by = ab.sx*b.xx + ab.sy*b.yx, ab.sx*b.xy + ab.sy*b.yy

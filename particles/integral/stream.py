@@ -14,7 +14,7 @@ from particles.integral.bodies import Held
 from particles.integral.edges import Edges
 from particles.integral.exchange import At, Stage
 from particles.integral.fixed import NO_IMAGES, FixedSums, OnPoints, OwnPressure, opened, stored
-from particles.pairs import Stored, rate, sweep, zero
+from particles.pairs import Stored, pair_term, sweep
 from particles.threads import Threads
 
 
@@ -23,10 +23,7 @@ class Filter(NamedTuple):
     chi: float
 
 
-zero.of(Filter)(lambda term: (0.0,)*4)
-
-
-@rate.of(Filter)
+@pair_term(Filter, 4)
 def _(term, a, b, ab):
     mass = term.chi*ab.k*(b.rho - a.rho)
     inner = a.eps/a.rho + b.eps/b.rho - 0.5*((a.vx - b.vx)**2 + (a.vy - b.vy)**2)

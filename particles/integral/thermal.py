@@ -11,17 +11,21 @@ import numpy as np
 
 from continuum.fluid import energy, sound_speed
 from continuum.jit import jit
-from particles.integral.covariance import BETAS, OLD
 from particles.integral.dih import Dih, EdgeFluxes, Flow, Mixed, check_bulk, frictions, gained, means, take
 from particles.integral.fixed import check_number
 from particles.integral.fluctuating import conductances, traceless
 from particles.limits import limit_of
 from particles.method import Sums
-from particles.noise import check_seed, fill_normals, normals_of_pair
+from particles.noise import check_seed, fill_normals, normals, words_of_pair
 from particles.threads import Threads
 
 #: heat capacity of a point over k, below which current amplitudes bias energy fluctuations by 1 % and more
 LEAST_CAPACITY = 50
+#: of the second half of the noise in stages 1, 2, 3    [Delong, Griffith, Vanden-Eijnden & Donev 2013]
+BETAS = tuple(float(b) for b in ((2*np.sqrt(2) + np.sqrt(3))/5, (-4*np.sqrt(2) + 3*np.sqrt(3))/5,
+                                 (np.sqrt(2) - 2*np.sqrt(3))/10))
+#: shares of the state before the step in stages 1, 2, 3; the rest is an Euler step of the last stage
+OLD = (0.0, 3/4, 1/3)
 #: c in <dx> = c B B' dt of three stages, each with B of its own state: 0 would be Ito's, 1/2 Stratonovich's
 STAGED = (1 + BETAS[0]*BETAS[1])/6 + (2 + BETAS[2]*(BETAS[0] + BETAS[1]))/6
 
@@ -144,7 +148,7 @@ def fill_pairs(first, last, seed, step, i, j, out):
     """out[e, c] = normal number of (seed, step, i_e, j_e, c), for edges first..last."""
     for e in range(first, last):
         for c in range(0, out.shape[1], 4):
-            found = normals_of_pair(seed, step, i[e], j[e], c//4)
+            found = normals(words_of_pair(seed, step, i[e], j[e], c//4))
             for m in range(min(4, out.shape[1] - c)):
                 out[e, c + m] = found[m]
 

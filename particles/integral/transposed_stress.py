@@ -16,7 +16,7 @@ import numpy as np
 from continuum.fluid import constant_viscosity
 from continuum.jit import jit
 from particles.integral.exchange import At, Conduction, Friction, Stage, stages_of
-from particles.pairs import rate, sweep, zero
+from particles.pairs import pair_term, sweep
 from particles.threads import Threads
 
 Tau = np.dtype([(name, "f8") for name in ("xx", "xy", "yx", "yy")])
@@ -38,19 +38,19 @@ class Transposed(NamedTuple):
 #: friction along edges with the heating, and the force, of a fluid
 MENDED = (Conduction(), Mending(), Friction())
 
-zero.of(Mending)(lambda term: (0.0,)*4)
-zero.of(Differences)(lambda term: (0.0,)*4)
-zero.of(Transposed)(lambda term: (0.0,)*2)
-rate.of(Mending)(lambda term, a, b, ab: (0.0, 0.0, 0.0, ab.sx*(a.Fx + b.Fx) + ab.sy*(a.Fy + b.Fy)))
+
+@pair_term(Mending, 4)
+def _(term, a, b, ab):
+    return 0.0, 0.0, 0.0, ab.sx*(a.Fx + b.Fx) + ab.sy*(a.Fy + b.Fy)
 
 
-@rate.of(Differences)
+@pair_term(Differences, 4)
 def _(term, a, b, ab):
     du, dv = b.ux - a.ux, b.uy - a.uy
     return ab.sx*du, ab.sy*du, ab.sx*dv, ab.sy*dv
 
 
-@rate.of(Transposed)
+@pair_term(Transposed, 2)
 def _(term, a, b, ab):
     return ab.sx*(a.xx + b.xx) + ab.sy*(a.yx + b.yx), ab.sx*(a.xy + b.xy) + ab.sy*(a.yy + b.yy)
 
@@ -99,7 +99,7 @@ def _(term: Mending, law: Any, n: int, threads: Threads, *more: Any) -> tuple[St
 
 @jit
 def _work(first, last, slopes, V, share, points):
-    """F = eta (v u_y - u v_y, u v_x - v u_x), in 2D without bulk viscosity: `dih.lacking`."""
+    """F = eta (v u_y - u v_y, u v_x - v u_x), in 2D without bulk viscosity: `dih.Pairwise`."""
     for i in range(first, last):
         a, f = points[i], share*points[i].eta/V[i]
         ux, uy, vx, vy = slopes[i, 0], slopes[i, 1], slopes[i, 2], slopes[i, 3]

@@ -13,7 +13,7 @@ from particles.integral.rr98_moving import Drift, Drifts
 from particles.integral.rr98_moving_plain import Powers, scale_of
 from particles.integral.transposed_stress import MENDED
 from particles.observe import pairs_behind
-from particles.pairs import rate, sweep, zero
+from particles.pairs import entries, pair_term, sweep
 from particles.smooth.spam import LessStatic
 from particles.weights import WendlandC2
 from studies.build.setting import Ready, check_points, no_still_layer, placed, walls
@@ -107,12 +107,10 @@ def of_heat(heat: Any) -> dict[str, Any]:
 def heat_over_faces(sums: FaceSums, state: np.ndarray, side: int) -> float:
     """Heat over faces to images behind a plate."""
     faces, half = sums.maker.faces, sums.method.box[1]/2
-    near = np.flatnonzero(side*state[1] > half - sums.method.weight.h)
-    spans = zip(faces.first[near].astype(int), faces.taken[near], strict=True)
-    entry = np.concatenate([np.arange(first, first + count) for first, count in spans])
+    row, entry = entries(faces, np.flatnonzero(side*state[1] > half - sums.method.weight.h))
     image = faces.near[entry]
     behind = (image >= sums.n) & (side*sums.around.y[image] > half)
-    a = sums.points[np.repeat(near, faces.taken[near])[behind]]
+    a = sums.points[row[behind]]
     b, k = sums.points[image[behind]], faces.k[entry[behind]]
     return float(np.sum(k*(a["k"] + b["k"])/2*(b["Td"] - a["Td"])))
 
@@ -121,8 +119,9 @@ class PairHeat(NamedTuple):
     """Heat that the first of two points gets from the other."""
 
 
-zero.of(PairHeat)(lambda term: (0.0,))
-rate.of(PairHeat)(lambda term, a, b, ab: (0.5*(a.k + b.k)*ab.k*(b.Td - a.Td),))
+@pair_term(PairHeat, 1)
+def _(term, a, b, ab):
+    return (0.5*(a.k + b.k)*ab.k*(b.Td - a.Td),)
 
 
 def heat_of_pairs(sums: Drifts, state: np.ndarray, side: int) -> float:

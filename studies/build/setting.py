@@ -15,9 +15,8 @@ from continuum.scene import Periodic, Torus, Walls
 from continuum.sides import Plate, Sides, Sliding, Slip, warm
 from particles.integral.points import Points, jittered, lattice, random, relaxed, wrapped
 from particles.limits import limit_of
-from particles.walls.mirror import AtWall, Copied, Mirror, plates, sides
+from particles.walls.mirror import AtWall, Copied, Mirror, OneSide, plates, sides
 from particles.walls.periodic import periodic
-from particles.walls.side import OneSide
 from particles.weights import WendlandC2
 from studies.build.names import START_JITTER
 

@@ -29,8 +29,7 @@ VARIATIONS = of("variation")
 #: method in tables that have a variant besides -> the family, and the variant that has the family's own name
 FAMILIES = {"compressible": ("grid", "flux-form"), "spam": ("spam", "printed"), "dih": ("", ""),
             "boussinesq": ("boussinesq", "mac"), "linear": ("linear-theory", ""),
-            "pypde-compressible": ("py-pde", "staggered"),
-            "pypde-boussinesq": ("py-pde-boussinesq", "vorticity")}
+            "pypde-compressible": ("py-pde", "staggered")}
 
 
 def name_of(method: str, variant: str = "") -> str:

@@ -8,7 +8,7 @@ import numpy as np
 
 from continuum.fluid import ConstEta, IdealGas
 from continuum.published import published
-from particles.integral.bodies import between_circles, held, in_disc, together, turning, with_surface
+from particles.integral.bodies import held, together
 from particles.integral.edge_makers import renormalised
 from particles.integral.edges import Edges
 from particles.integral.points import Points, lattice
@@ -19,6 +19,7 @@ from particles.limits import limit_of
 from particles.run import Plan, Run, run
 from particles.threads import Threads
 from particles.weights import Lucy
+from studies.conservation.discs import between_circles, in_disc, turning, with_surface
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import Measured, with_errors
 

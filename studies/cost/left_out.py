@@ -16,7 +16,6 @@ import numpy as np
 from continuum.exact.vortex import SOUND, incompressible, solved, velocities
 from continuum.fluid import IdealGas
 from particles.integral.edge_makers import renormalised
-from particles.integral.isothermal import Carried, ConstantFriction, Isothermal
 from particles.integral.layer import LayerSums
 from particles.integral.points import lattice
 from particles.integral.thermal import Thermal
@@ -28,6 +27,7 @@ from studies.build.moving import MOTIONS
 from studies.build.moving_delaunay import CARRIAGES
 from studies.build.scenes import TaylorGreen
 from studies.cost.contestants import ExactFlow, carried, on_mac, points
+from studies.cost.isothermal import Isothermal
 from studies.cost.problem import Problem, of_method, rms
 from studies.cost.rolls import HeatedLayer, in_time
 from studies.cost.seconds import SHORT, array_bytes, per_step, stepped
@@ -93,8 +93,7 @@ def vortex_edge_by_edge(size: int) -> Reduced:
 def vortex_without_heat(size: int) -> Reduced:
     """Mass and momentum at a pressure that the density gives."""
     scene, place = FLOW.scene(size), lattice((size, size))
-    terms = Carried(SOUND**2), ConstantFriction(scene.eta)
-    method = Isothermal(x=place.x, edges=renormalised(place, Lucy.of(h=H)), terms=terms)
+    method = Isothermal(x=place.x, edges=renormalised(place, Lucy.of(h=H)), c2=SOUND**2, eta=scene.eta)
     density, v, _ = scene.fields(place.x)
     rho = 1 + (density**2 - 1)/SOUND**2        # the same pressure
     return on_square(size, method, np.array([rho, *(rho*v.T)]))

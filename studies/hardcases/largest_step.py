@@ -17,10 +17,9 @@ from continuum.gas.fields import block, initial
 from continuum.gas.solve import March, limits
 from continuum.scene import Periodic, Torus
 from continuum.steady import RK4_DECAY, RK4_SOUND
-from particles.integral.covariance import jacobian
 from particles.integral.layer import Layer
 from particles.integral.points import lattice
-from particles.limits import limit_of
+from particles.limits import jacobian, limit_of
 from particles.run import Run
 from particles.threads import Threads
 from studies.build.fixed import Scheme

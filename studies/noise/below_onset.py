@@ -11,11 +11,12 @@ from scipy import sparse
 from scipy.optimize import brentq
 
 from continuum.scene import RayleighBenard
-from particles.integral.covariance import crank_nicolson, jacobian, steady, waves
 from particles.integral.layer import Layer
+from particles.limits import jacobian
 from particles.threads import Threads
 from studies.build.fixed import Scheme, layer
 from studies.kit.case import Case, Outcome, Report
+from studies.noise.covariance import crank_nicolson, steady, waves
 from studies.noise.partners import noise, transport
 from studies.noise.sampling import BATCHES, Sampler, of_matrix, ratio
 

@@ -12,7 +12,6 @@ from particles.dissipative.integrators import (
     Shardlow,
     VelocityVerlet,
 )
-from particles.integral.covariance import STEPS as INTEGRATORS
 from particles.integral.edge_makers import MAKERS, delaunay, renormalised
 from particles.integrators import TwoStep
 from studies.build.setting import DISORDERS
@@ -20,6 +19,7 @@ from studies.kit.case import Case
 from studies.kit.table import Table
 from studies.noise import dissipative, partners
 from studies.noise.below_onset import DECAYS, BelowOnset, LayerSampled
+from studies.noise.covariance import STEPS as INTEGRATORS
 from studies.noise.dissipative import AtRest, Fluid, LongRun
 from studies.noise.partners import Formula, Partnership
 from studies.noise.printed_noise import Capacity, MovingSteps, PrintedWaves, Steps

@@ -12,15 +12,16 @@ from scipy import sparse
 
 from continuum.fluid import ConstEta, IdealGas
 from particles.integral import fluctuating
-from particles.integral.covariance import crank_nicolson, jacobian, steady_of_steps
 from particles.integral.dih import Dih, Mixed
 from particles.integral.edge_makers import delaunay, renormalised
 from particles.integral.edges import Edges
 from particles.integral.fluctuating import Partners, mismatch
 from particles.integral.points import lattice, random
+from particles.limits import jacobian
 from particles.weights import Lucy, WendlandC2
 from studies.build.setting import Disorder
 from studies.kit.case import Case, Outcome, Report
+from studies.noise.covariance import crank_nicolson, steady_of_steps
 
 ETA, ZETA, KAPPA = 0.3, 0.1, 0.4
 KT = 0.7

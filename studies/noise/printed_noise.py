@@ -13,7 +13,6 @@ import numpy as np
 
 from continuum.exact.waves import waves
 from particles.integral import fluctuating
-from particles.integral.covariance import Step, steady_of_steps
 from particles.integral.edge_makers import renormalised
 from particles.integral.edges import Edges
 from particles.integral.fluctuating import Partners
@@ -24,6 +23,7 @@ from particles.weights import Lucy
 from studies.build.symbols import neighbours
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import over_seeds, with_errors
+from studies.noise.covariance import Step, steady_of_steps
 from studies.noise.partners import ETA, KAPPA, KT
 from studies.noise.sampling import BATCHES, Kick, Sampler, check_length
 

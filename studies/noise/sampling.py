@@ -11,11 +11,10 @@ from typing import Any
 import numpy as np
 
 from continuum.fluid import ConstEta, IdealGas
-from particles.integral.covariance import jacobian
 from particles.integral.edge_makers import delaunay
 from particles.integral.points import Points, jittered
 from particles.integral.thermal import Thermal
-from particles.limits import limit_of
+from particles.limits import jacobian, limit_of
 from particles.noise import fill_normals
 from particles.run import Plan, run
 from particles.weights import Lucy

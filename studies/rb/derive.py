@@ -14,7 +14,7 @@ from studies.rb.snapshots import field_errors, snapshots
 from studies.rb.tables import POINT, SCENE, STEP, STILL
 
 Row = dict[Any, Any]
-GRIDS = ("compressible", "boussinesq", "pypde-boussinesq", "pypde-compressible")
+GRIDS = ("compressible", "boussinesq", "pypde-compressible")
 SERIES = [name for name in POINT if name != "resolution"]
 ENERGIES = ["ke", "ke_field", "ke_mean", "nu"]
 HALF = "printed-half-step"

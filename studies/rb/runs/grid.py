@@ -1,4 +1,4 @@
-"""Grid references as cases: the compressible gas, Boussinesq, and both in py-pde."""
+"""Grid references as cases: the compressible gas, also in py-pde, and the Boussinesq fluid."""
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -10,7 +10,6 @@ from continuum.gas.fields import block, initial, interpolate
 from continuum.gas.ghosts import FluxForm
 from continuum.gas.solve import March, Solution, limits, run, steady_on
 from continuum.pypde import solve as pypde
-from continuum.pypde.boussinesq import Boussinesq
 from continuum.pypde.gas import Gas
 from continuum.scene import RayleighBenard
 from continuum.steady import SAFETY, Steady, Time
@@ -35,12 +34,6 @@ def compressible(scene: RayleighBenard, rows: int, variant: str) -> dict:
 def no_particles(free_fall: float) -> dict:
     """Columns of `kinetic_energy` that are the same for all grids."""
     return {"particles": 0, "seed": 0, "free_fall": free_fall, "threads": 1}
-
-
-def boussinesq_point(method: str, variant: str, ra: float, pr: float) -> dict:
-    """Columns that all Boussinesq rows share; their state is steady to round-off."""
-    return {"method": method, "variant": variant, "eos": "", "transport": "", "sides": "periodic", "ra": ra,
-            "pr": pr, **no_particles(1.0), "mass_drift": 0.0, "converged": True, "dt": 0.0, "t_end": 0.0}
 
 
 def spent(solution: Any) -> dict:
@@ -153,18 +146,19 @@ class BoussinesqSteady(Case):
         return Outcome({"kinetic_energy": rows})
 
     def _row(self, state: boussinesq.State) -> dict:
+        """A state that is steady to round-off."""
         seen = state.observe()
-        return {**boussinesq_point("boussinesq", "mac", self.ra, self.pr), **one_energy(seen.K, 0.0),
+        return {"method": "boussinesq", "variant": "mac", "eos": "", "transport": "", "sides": "periodic",
+                "ra": self.ra, "pr": self.pr, **no_particles(1.0), "mass_drift": 0.0, "converged": True,
+                "dt": 0.0, "t_end": 0.0, **one_energy(seen.K, 0.0),
                 "nu": (seen.nu_bottom + seen.nu_top)/2, "nu_err": abs(seen.nu_bottom - seen.nu_top),
                 "rolls": 2*state.rolls, "steps": len(state.changes)}
 
 
 @dataclass(frozen=True, kw_only=True)
 class PypdeSteady(Case):
-    """py-pde's Boussinesq layer (`scene` None) or compressible gas."""
-    ra: float
-    pr: float = 1.0
-    scene: RayleighBenard | None = None
+    """The compressible gas in py-pde."""
+    scene: RayleighBenard
     sizes: tuple[int, ...] = (16, 24, 32)
 
     @property
@@ -174,20 +168,13 @@ class PypdeSteady(Case):
     def run(self, report: Report, folder: Path) -> Outcome:
         rows: list[dict] = []
         solution: pypde.PdeSolution | None = None
+        point = {"method": "pypde-compressible", "variant": "staggered", **scene_columns(self.scene),
+                 **no_particles(self.scene.free_fall)}
         for size in self.sizes:
-            solution = pypde.solve(self._fluid(size), start=solution)
-            rows.append({**self._point(), "resolution": size, **spent(solution), "rolls": solution.rolls})
+            solution = pypde.solve(Gas(self.scene, size), start=solution)
+            rows.append({**point, "resolution": size, **spent(solution), "rolls": solution.rolls})
             report(len(rows)/len(self.sizes))
         return Outcome({"kinetic_energy": rows})
-
-    def _fluid(self, rows: int) -> Boussinesq | Gas:
-        return Gas(self.scene, rows) if self.scene else Boussinesq(ra=self.ra, pr=self.pr, rows=rows)
-
-    def _point(self) -> dict:
-        if self.scene is None:
-            return boussinesq_point("pypde-boussinesq", "vorticity", self.ra, self.pr)
-        return {"method": "pypde-compressible", "variant": "staggered", **scene_columns(self.scene),
-                **no_particles(self.scene.free_fall)}
 
 
 @dataclass(frozen=True, kw_only=True)

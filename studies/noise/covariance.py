@@ -6,30 +6,15 @@
 What is conserved (rows L with L J = 0, L Q = 0) keeps its value: covariances are those at fixed sums.
 """
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from scipy.linalg import null_space, solve_continuous_lyapunov, solve_discrete_lyapunov
 
+from particles.integral.thermal import BETAS, OLD
+
 #: of the size of J: rates above its negative belong to modes that do not decay; differences leave 1e-12
 UNDAMPED = 1e-10
-#: of four-point differences of fields of order 1: STEP^4 = 1e-12 of fifth derivatives, round-off 1e-13
-STEP = 1e-3
-
-
-def jacobian(rates: Callable[[np.ndarray, np.ndarray], None], state: np.ndarray,
-             points: Any = slice(None)) -> np.ndarray:
-    """d rates/d state of a state (fields, n) by differences of fourth order, at the columns of `points` only:
-    (size, columns). rates(state, out) writes the rates to `out`."""
-    numbers = np.arange(state.size).reshape(state.shape)[:, points].ravel()
-    J, out = np.zeros((state.size, len(numbers))), np.empty(state.shape)
-    for column, number in enumerate(numbers):
-        for shift, weight in ((-2, 1/12), (-1, -8/12), (1, 8/12), (2, -1/12)):
-            moved = state.copy()
-            moved.ravel()[number] += shift*STEP
-            rates(moved, out)
-            J[:, column] += weight*out.ravel()/STEP
-    return J
 
 
 def waves(columns: np.ndarray, counts: tuple[int, int], k: float) -> np.ndarray:
@@ -91,13 +76,6 @@ def crank_nicolson(J: np.ndarray, Q: np.ndarray, dt: float) -> Step:
     one = np.eye(len(J))
     inverse = np.linalg.inv(one - dt/2*J)
     return Step(inverse@(one + dt/2*J), dt*inverse@Q@inverse.conj().T)
-
-
-#: of the second half of the noise in stages 1, 2, 3    [Delong, Griffith, Vanden-Eijnden & Donev 2013]
-BETAS = tuple(float(b) for b in ((2*np.sqrt(2) + np.sqrt(3))/5, (-4*np.sqrt(2) + 3*np.sqrt(3))/5,
-                                 (np.sqrt(2) - 2*np.sqrt(3))/10))
-#: shares of the state before the step in stages 1, 2, 3; the rest is an Euler step of the last stage
-OLD = (0.0, 3/4, 1/3)
 
 
 def three_stage(J: np.ndarray, Q: np.ndarray, dt: float) -> Step:

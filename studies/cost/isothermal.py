@@ -1,7 +1,7 @@
-"""A fluid on fixed points that has no more than its scene lists: density, momentum, named terms.
+"""A fluid on fixed points without heat: density, momentum, pressure c^2 rho, constant friction along edges.
 
-P = c^2 rho: without heat there is neither energy nor temperature nor conductivity in the state nor in the
-records. The brackets are those of Eqs 34, 35 and 51    [RR98]
+There is neither energy nor temperature nor conductivity in the state nor in the records. The brackets are
+those of Eqs 34, 35 and 51    [RR98]
 """
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -11,50 +11,37 @@ import numpy as np
 from continuum.jit import jit
 from particles.fields import Fields
 from particles.integral.edges import Edges
-from particles.integral.exchange import At, Exchange, Listing
+from particles.integral.exchange import At, Exchange
 from particles.integral.fixed import NO_IMAGES, OnPoints, stored
 from particles.limits import limit_of
 from particles.method import Sums
-from particles.pairs import rate, zero
+from particles.pairs import pair_term
 from particles.threads import Threads
 
 Point = np.dtype([(name, "f8") for name in ("rho", "vx", "vy")])
 
 
-class Carried(NamedTuple):
-    """Mass and momentum that move with the fluid, and pressure    [Eqs 34, 35]"""
+class Cold(NamedTuple):
+    """Mass and momentum that move with the fluid, pressure, friction    [Eqs 34, 35, 51 with B = eta]"""
     c2: float
-
-
-class ConstantFriction(NamedTuple):
-    """Along edges, constant viscosity    [Eq. 51, B = eta]"""
     eta: float
 
 
-zero.of(Carried)(lambda term: (0.0,)*3)
-zero.of(ConstantFriction)(lambda term: (0.0,)*3)
-
-
-@rate.of(Carried)
+@pair_term(Cold, 3)
 def _(term, a, b, ab):
     from_a, from_b = a.rho*(ab.sx*b.vx + ab.sy*b.vy), b.rho*(ab.sx*a.vx + ab.sy*a.vy)
-    P = term.c2*(a.rho + b.rho)
-    return -from_a - from_b, -from_a*a.vx - from_b*b.vx - ab.sx*P, -from_a*a.vy - from_b*b.vy - ab.sy*P
-
-
-@rate.of(ConstantFriction)
-def _(term, a, b, ab):
-    f = term.eta*ab.k
-    return 0.0, f*(b.vx - a.vx), f*(b.vy - a.vy)
+    P, f = term.c2*(a.rho + b.rho), term.eta*ab.k
+    return (-from_a - from_b, f*(b.vx - a.vx) - from_a*a.vx - from_b*b.vx - ab.sx*P,
+            f*(b.vy - a.vy) - from_a*a.vy - from_b*b.vy - ab.sy*P)
 
 
 class Summed(Sums):
-    """The compiled sums of the listed terms."""
+    """The compiled sums."""
 
     def __init__(self, method: "Isothermal", threads: Threads):
         self.method, self.threads, self.n = method, threads, len(method.x)
         self.at = At(np.zeros(self.n, Point), stored(method.edges), NO_IMAGES, method.edges.V)
-        self.exchange = Exchange(Listing(method.terms), (), self.n, threads)
+        self.exchange = Exchange(Cold(method.c2, method.eta), (), self.n, threads)
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
         self.threads(_read, self.n, state, self.at.points)
@@ -63,10 +50,11 @@ class Summed(Sums):
 
 @dataclass(frozen=True, kw_only=True)
 class Isothermal(OnPoints):
-    """Fixed points, periodic, without heat. terms : of Carried and ConstantFriction."""
+    """Fixed points, periodic, of a squared speed of sound c2 and a viscosity eta."""
     x: np.ndarray
     edges: Edges
-    terms: tuple
+    c2: float
+    eta: float = 0.0
 
     names = ("rho", "px", "py")
     sums = Summed
@@ -82,11 +70,10 @@ class Isothermal(OnPoints):
 
 @limit_of.register
 def _(method: Isothermal, start: np.ndarray) -> float:
-    """RK4: the fastest sound and the fastest diffusion that the listed terms make of the edges."""
+    """RK4: the fastest sound and the fastest diffusion of the edges."""
     sound, spread = method.fastest
-    c2, eta = (sum(getattr(term, name, 0.0) for term in method.terms) for name in ("c2", "eta"))
-    fast = np.sqrt(c2) + np.sqrt(((start[1]**2 + start[2]**2)/start[0]**2).max())
-    return float(1/(fast*sound/2.82 + eta/start[0].min()*spread/2.78))
+    fast = np.sqrt(method.c2) + np.sqrt(((start[1]**2 + start[2]**2)/start[0]**2).max())
+    return float(1/(fast*sound/2.82 + method.eta/start[0].min()*spread/2.78))
 
 
 @jit
