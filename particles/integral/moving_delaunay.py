@@ -174,7 +174,8 @@ class MovingDelaunay:
         """(9, n) of densities (n,), velocities (n, 2), temperatures (n,); held points get their own."""
         n, which = len(self.x), self.held.which
         V, v, T = np.zeros(n), np.array(v, float), T*np.ones(n)
-        geometry(0, n, self.x.T.copy(), self.rings, V, np.zeros((n, 2)), np.zeros(n, bool))
+        rings = rows_of(table_of(self.rings), *self.rings[1:])       # edges that are written take memory
+        geometry(0, n, self.x.T.copy(), rings, V, np.zeros((n, 2)), np.zeros(n, bool))
         w = v.copy()
         v[which], w[which] = self.held.v, 0.0
         m, e = rho*V, energy(self.eos, rho, T)

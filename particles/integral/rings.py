@@ -48,8 +48,10 @@ def rings(x: np.ndarray, size: tuple[float, float], closed: tuple[bool, bool]) -
     spokes = np.concatenate([corner, np.roll(corner, -1, axis=1), np.roll(corner, -2, axis=1)])
     spokes = spokes[np.lexsort((spokes[:, 1], spokes[:, 0]))]
     count = np.bincount(spokes[:, 0], minlength=len(x))
-    table, rim = np.full((len(x), int(count.max()) + 1 + SPARE), -1), np.zeros(len(x), bool)
-    for i, rows in enumerate(np.split(spokes[:, 1:], np.cumsum(count)[:-1])):
+    table = np.full((len(x), int(count.max()) + 1 + SPARE), -1, np.int32)
+    rim, ends = np.zeros(len(x), bool), np.cumsum(count)
+    for i in range(len(x)):
+        rows = spokes[ends[i] - count[i]:ends[i], 1:]
         ring, rim[i] = _follow(rows)
         if len(set(ring)) < max(2, len(rows) + rim[i]):
             raise ValueError(f"the triangles around point {i} at {x[i]} are no ring: look for points in one "
@@ -60,11 +62,11 @@ def rings(x: np.ndarray, size: tuple[float, float], closed: tuple[bool, bool]) -
 
 def table_of(rings: Rings, order: np.ndarray | None = None) -> np.ndarray:
     """Neighbours (n, stride), -1 where there is none; of points in another order, renumbered."""
-    near = rings.edges.near.reshape(len(rings.rim), -1).astype(np.int64)
+    near = rings.edges.near.reshape(len(rings.rim), -1).astype(np.int32)
     table = np.where(np.arange(near.shape[1]) < rings.edges.taken[:, None], near, -1)
     if order is None:
         return table
-    return np.where(table < 0, -1, np.argsort(order)[table])[order]
+    return np.where(table < 0, -1, np.argsort(order)[table])[order].astype(np.int32)
 
 
 def spokes(rings: Rings) -> tuple[np.ndarray, ...]:
