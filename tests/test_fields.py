@@ -33,7 +33,6 @@ from particles.limits import limit_of
 from particles.smooth.spam import Spam
 from particles.walls.periodic import periodic
 from particles.weights import Lucy, WendlandC2
-from studies.cost.isothermal import Isothermal
 
 BOX = COLUMNS, ROWS = 16, 8        # two threads share no fewer points
 AT, SQUARE = jittered(BOX, 0.1, 1), lattice(BOX)
@@ -52,7 +51,6 @@ FIXED = {"dih": Dih(edges=EDGES, **FLUID), "layer": Layer(**INSIDE),
          "sheared": Sheared(points=SQUARE, edges=EDGES, rate=0.1, **FLUID), "driven": Driven(**INSIDE),
          "moving-delaunay": MovingDelaunay(x=SQUARE.x, rings=rings(SQUARE.x, BOX, (False, False)),
                                            held=held(np.array([0])), **FLUID)}
-COLD = Isothermal(x=SQUARE.x, edges=EDGES, c2=2.0)
 MOVING = {**{f"rr98-{name}": Drift(motion=motion, **EVERYWHERE) for name, motion in DRIFTS.items()},
           **{f"plain-{name}": kind(box=BOX, weight=WendlandC2.of(h=2.9), **FLUID) for name,
              kind in MOTIONS.items()},
@@ -89,12 +87,6 @@ def test_moving_points_give_back_what_their_state_was_made_of(method):
     fields = method.fields(method.state(AT.x, rho=rho, v=v, T=T))
     same(fields, rho, v, T)
     assert np.array_equal(fields.x, AT.x)
-
-
-def test_a_fluid_without_heat_has_no_temperature():
-    rho, v, _ = given(SQUARE.n)
-    fields = COLD.fields(COLD.state(rho, v))
-    same(fields, rho, v, np.full(SQUARE.n, np.nan))
 
 
 def test_smooth_particles_have_the_density_of_their_own_sums():
@@ -134,7 +126,7 @@ def kinds():
 
 
 def test_no_method_is_left_out():
-    tried = {type(method) for method in (*FIXED.values(), *MOVING.values(), *DPD.values(), SPAM, COLD)}
+    tried = {type(method) for method in (*FIXED.values(), *MOVING.values(), *DPD.values(), SPAM)}
     assert kinds() <= tried, f"{kinds() - tried} have states, add them to the methods of this test"
 
 

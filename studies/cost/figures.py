@@ -164,7 +164,7 @@ def scenes(rows: pd.DataFrame) -> Figure:
     axes.set_yticks(at, labels=[effect(row) for row in rows.itertuples()], fontsize=8)
     axes.set(xscale="log", xlabel="what is left over what the whole takes; bars: 95 %")
     written(axes.xaxis, (1, 2, 5))
-    page.suptitle(f"What does leaving out save, what error does it make? Motion and heat cost most\n{ABOVE}",
+    page.suptitle(f"What does leaving out save, what error does it make? Motion costs most\n{ABOVE}",
                   fontsize=9)
     page.legend(loc="outside lower center", ncols=3)
     return page
