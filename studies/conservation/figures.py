@@ -19,61 +19,6 @@ INTEGRATORS: dict[str, Any] = {
 BODIES = {"surface": "points on the surface", "surface-unfiltered": "the same without filter",
           "frozen": "frozen lattice points", "frozen-grown": "frozen, half a spacing more"}
 UNIT = r"$a\,(m/k_BT)^{1/2}$"      # of time
-SUMS = ("mass", "momentum", "energy", "volume")
-LEAST = 1e-17       # what is drawn for a change of nothing
-#: scheme, mode, wall as texts begin -> words, in the order in which they are drawn
-COLUMNS = {
-    ("layer", "pairwise", "periodic"): "friction along edges",
-    ("layer", "unmended", "periodic"): "the same, heat as printed",
-    ("layer", "nested", "periodic"): "nested friction",
-    ("layer", "mixed", "periodic"): "nested and along edges",
-    ("layer", "ideal", "periodic"): "no friction",
-    ("dih", "printed", ""): "nested, Eq. 37 as printed",
-    ("dih", "", ""): "1D, 3D, bulk viscosity",
-    ("layer", "ideal", "plates, gravity"): "plates, gravity",
-    ("layer", "ideal", "plates"): "plates, no friction",
-    ("layer", "", "plates"): "plates, friction",
-    ("motions", "literal", ""): "Eqs 39-41",
-    ("motions", "constant", ""): "Eq. 49",
-    ("motions", "convective", ""): "Eqs 46-48",
-    ("motions", "carried", ""): "the same, volumes follow",
-    ("moving", "pairwise", "periodic"): "points that move",
-    ("moving", "", "periodic"): "the same, parts left out",
-    ("moving", "", "plates"): "the same, plates",
-}
-
-
-def column(scheme: str, mode: str, wall: str) -> int:
-    """Where a run is drawn: the first of COLUMNS that fits."""
-    fits = [all(map(str.startswith, (scheme, mode, wall), key)) for key in COLUMNS]
-    return fits.index(True)
-
-
-def drift(rows: pd.DataFrame) -> Figure:
-    """Changes of sums; other marks where a run stopped early, or does not claim to keep them."""
-    page, axes = figure(1, 1, width=9.4, height=5.6)
-    rows = rows.assign(column=list(map(column, rows["scheme"], rows["mode"], rows["wall"])))
-    order = sorted(set(rows["column"]))
-    whole = rows["reached"] == rows["steps"]
-    for number, name in enumerate(SUMS):
-        claimed = rows["claimed"].str.contains(name)
-        style = {**look(number), "linestyle": "none", "markersize": 6}
-        x = rows["column"].map(order.index) + 0.15*(number - 1.5)
-        y = rows[name].clip(lower=LEAST)
-        for chosen, more in ((claimed & whole, {"label": name}), (claimed & ~whole, {"fillstyle": "left"}),
-                             (~claimed, {"fillstyle": "none"})):
-            axes.plot(x[chosen], y[chosen], **{**style, **more})
-    axes.set_xlim(-0.6, len(order) - 0.4)
-    axes.axhline(1e-13, color="grey", linestyle=":", marker="")
-    axes.set(yscale="log", ylabel="largest relative change over the run")
-    words = [list(COLUMNS.values())[place] for place in order]
-    axes.set_xticks(range(len(order)), labels=words, rotation=60, ha="right", fontsize=8)
-    axes.set_title(f"What do schemes on points conserve in {rows['steps'].max()} steps?\nfilled: what the "
-                   "scheme claims to; left half filled: the same in runs that stopped early (diverged, or "
-                   "sound outran the step);\nopen: not claimed, also in such runs; dotted: 1e-13; no change "
-                   "at all is drawn as 1e-17", fontsize=9)
-    page.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=4)
-    return page
 
 
 def bars(axes: Axes, rows: pd.DataFrame, x: str, y: str, **more: Any) -> None:
@@ -162,7 +107,6 @@ def draw_drags(axes: Axes, rows: pd.DataFrame) -> None:
 
 
 FIGURES = Drawings(
-    Drawing("drift", ("drift",), drift),
     Drawing("speeds", ("patterns", "moving_sound"), speeds),
     Drawing("steps", ("steps",), steps),
     Drawing("drag", ("drag",), drags))
