@@ -12,7 +12,7 @@ from continuum.scene import RayleighBenard
 from continuum.sides import Periodic, Plate, Sliding
 from particles.integral import moving_delaunay
 from particles.integral import rings as rings_module
-from particles.integral.bodies import between_circles, together, turning
+from particles.integral.bodies import together
 from particles.integral.flips import flips
 from particles.integral.moving_delaunay import MovingDelaunay
 from particles.integral.rings import geometry, rings, table_of
@@ -25,6 +25,7 @@ from studies.build.fixed import between_sides
 from studies.build.measure import heat_at_rest
 from studies.build.moving_delaunay import CARRIAGES, NONE_HELD, Carriage
 from studies.build.setting import shifted
+from studies.conservation.discs import between_circles, turning
 
 TORUS, PLATES, BOX = (False, False), (False, True), (True, True)
 SIZE = (12.0, 10.0)
