@@ -68,7 +68,7 @@ class Plain:
             y[4:] = first + new*(y[4:] - first + dt*rates)
             hold(method.eos, held, y)
         y[:2] += dt*y[2:4]
-        y[2:4] = self.free*(y[4:6]/y[6] + method.shift*strain*pull)
+        y[2:4] = np.where(self.free, y[4:6]/y[6] + method.shift*strain*pull, y[2:4])
 
     def edges(self, x: np.ndarray) -> tuple[np.ndarray, ...]:
         """Triangles (3, T); edges i, j, S, k of all triangles, one after the other."""

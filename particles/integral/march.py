@@ -94,9 +94,10 @@ def fastest(strain, free):
 @shared
 @jit
 def move(first, last, dt, shift, bench, y):
-    """Points go on; then they follow the fluid, and shift to the middle of their triangles."""
+    """Points go on; free ones then follow the fluid, and shift to the middle of their triangles."""
     for i in range(u64(first), u64(last)):
         for c in range(2):
             y[c, i] += dt*y[c + 2, i]
-            y[c + 2, i] = bench.free[i]*(y[c + 4, i]/y[6, i] + shift*bench.pull[i, c])
+            if bench.free[i] > 0:
+                y[c + 2, i] = y[c + 4, i]/y[6, i] + shift*bench.pull[i, c]
             bench.middle[c, i] = y[c, i] + 0.5*dt*y[c + 2, i]

@@ -3,7 +3,7 @@
 Mass, momentum and energy are exchanged over the edges of `rings`, as on fixed points, at the velocity r = w -
 v at which points move against the fluid; flips hand over what they cut off. Volumes are those of the
 triangulation to round-off at all times: nothing has to follow, no static pressure is left out. Held points,
-on sides and bodies, stay where they are. Second order in space.
+on sides and bodies, stay where they are or ride with a side that slides along itself. Second order in space.
 """
 from dataclasses import dataclass
 from typing import Any
@@ -148,8 +148,9 @@ class RingSums(Sums):
 class MovingDelaunay:
     """A fluid on points x (n, 2) and their triangulation, of `rings`.
 
-    held : points that stay, on all sides and in bodies. g : gravity, downwards. shift : of points towards the
-    middle of their triangles, over the fastest strain. transport : listed terms, besides the heating's.
+    held : points on all sides and in bodies. rides : do they go along at their velocities? g : gravity,
+    downwards. shift : of points towards the middle of their triangles, over the fastest strain. transport :
+    listed terms, besides the heating's.
     Raises ValueError: a point on a side is not held.
     """
     x: np.ndarray
@@ -158,6 +159,7 @@ class MovingDelaunay:
     eos: Any
     law: Any
     g: float = 0.0
+    rides: bool = False
     shift: float = SHIFT
     transport: tuple = (Friction(), Conduction())
 
@@ -177,7 +179,7 @@ class MovingDelaunay:
         rings = rows_of(table_of(self.rings), *self.rings[1:])       # edges that are written take memory
         geometry(0, n, self.x.T.copy(), rings, V, np.zeros((n, 2)), np.zeros(n, bool))
         w = v.copy()
-        v[which], w[which] = self.held.v, 0.0
+        v[which], w[which] = self.held.v, self.rides*self.held.v
         m, e = rho*V, energy(self.eos, rho, T)
         state = np.stack([*self.x.T, *w.T, *(m[:, None]*v).T, m, V, m*(e + (v**2).sum(axis=1)/2)])
         hold(self.eos, self.held, state)

@@ -33,7 +33,8 @@ class Carriage(NamedTuple):
         closed = not along[0], not along[1]
         x, rows = between_sides(size, closed, shifted, self.size, seed)
         method = MovingDelaunay(x=x, rings=rings(x, size, closed), held=held_of(scene, x, rows),
-                                eos=scene.eos, law=scene.law, g=scene.g, shift=self.shift)
+                                eos=scene.eos, law=scene.law, g=scene.g, rides=closed != (True, True),
+                                shift=self.shift)
         return stepped(method, method.state(*(fields or scene.fields(x))), self.of_limit)
 
     @property
