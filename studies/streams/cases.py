@@ -23,33 +23,46 @@ from studies.front.observed import seen
 from studies.front.solving import prepared
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.timing import SPREAD_TO_ERR, median_seconds
-from studies.streams.scenes import Carried, DecayingVortex
+from studies.streams import scenes
+from studies.streams.scenes import Carried
 
 STREAMS = (0.0, 0.1, 0.3, 1.0, 3.0, 10.0)
-SCENES: dict[str, type[Carried]] = {"vortex": DecayingVortex}
-WORK = 100_000      # points times steps that are timed
+FEW = (0.0, 1.0, 10.0)      # of methods that cost much, or stay far from 1 %
+SCENES: dict[str, type[scenes.Carried]] = {
+    "vortex": scenes.DecayingVortex, "spot": scenes.Spot, "contact": scenes.Contact, "shear": scenes.Shear,
+    "gresho": scenes.Gresho, "mixing": scenes.Mixing, "convection": scenes.Convection,
+    "expansion": scenes.Expansion}
+BRIEF = {"quick": 0.005, "paper": 0.05}     # CPU seconds of the steps that are timed, about
+STILL, RISING, FAST = (16, 32, 64), (32, 64, 128), (32, 64, 128, 192)
 
 
 class Rider(NamedTuple):
-    """A method: its rows, of a quick look, of the study, and more of these in fast streams; its seeds; the
-    streams it rides in; CPU seconds of a point and step, for the estimate."""
-    quick: tuple[int, ...]
-    rows: tuple[int, ...]
-    fast: tuple[int, ...]
-    seeds: int = 1
+    """A method: its rows by stream, seeds, streams; CPU seconds of a point and step, about; is it quick?"""
+    rows: tuple[int, ...] = STILL
     streams: tuple[float, ...] = STREAMS
+    seeds: int = 1
     price: float = 4e-7
+    quick: bool = False
+    fast: tuple[tuple[int, ...], ...] = (RISING, FAST, FAST)
+
+    def rows_in(self, stream: float) -> tuple[int, ...]:
+        """More of them, the farther a stream carries a flow over points that stay."""
+        return self.rows if stream < 1 or not self.fast else self.fast[STREAMS.index(stream) - 3]
 
 
+MOVES = Rider(seeds=3, fast=(), quick=True)
+DEAR = Rider((16, 24, 32), FEW, fast=(), price=6e-6)
 RIDERS = {
-    "grid": Rider((12, 16, 24), (16, 32, 64), (32, 64, 128), price=2e-7),
-    "fixed-lattice-h1.2": Rider((12, 16, 24), (16, 32, 64), (32, 64, 128)),
-    "fixed-jittered-delaunay": Rider((12, 16, 24), (16, 32, 64), (32, 64, 128), seeds=3),
-    "moving-delaunay": Rider((12, 16, 24), (16, 24, 32), (16, 24, 32), seeds=3),
-    "moving": Rider((12,), (16, 24, 32), (16, 24, 32), streams=(0.0, 1.0, 10.0), price=6e-6),
-    "spam": Rider((12,), (16, 24, 32), (16, 24, 32), streams=(0.0, 1.0, 10.0), price=3e-6),
-    "spam-less-static-50": Rider((12,), (16, 24, 32), (16, 24, 32), streams=(0.0, 1.0, 10.0), price=3e-6),
-}
+    "grid": Rider(price=2e-7, quick=True), "fixed-lattice-h1.2": Rider(),
+    "fixed-jittered-delaunay": Rider(seeds=3, fast=(RISING,)*3), "moving-delaunay": MOVES, "moving": DEAR,
+    "spam": DEAR, "spam-less-static-50": DEAR}
+#: lattices and closed faces refuse a lower plate that slides; a run lasts ninety free-fall times
+LAYER, FINER = (12, 16, 24, 32), (16, 24, 32, 48)
+LAYER_RIDERS = {
+    "grid": Rider(LAYER, price=2e-7, quick=True, fast=(FINER,)*3),
+    "fixed-jittered-plates": Rider(LAYER, fast=(), price=1e-6, seeds=2),
+    "moving-delaunay": MOVES._replace(rows=LAYER, seeds=2),
+    "spam": DEAR._replace(rows=(12, 16, 24)), "spam-less-static-50": DEAR._replace(rows=(12, 16, 24))}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -64,7 +77,10 @@ class Ride(Case):
 
     @property
     def cost(self) -> float:
-        return 1 + self.price*self.scene.L**3*self.scene.time/self.scene.L
+        """Sound and stream pass a spacing in some three steps."""
+        scene = self.scene
+        steps = 2*scene.time*(2 + float(np.abs(scene.wind).sum()))
+        return 0.1 + self.price*scene.width*scene.L*steps
 
     @property
     def label(self) -> str:
@@ -99,13 +115,19 @@ class Error(Ride):
         return Outcome({"runs": [common | {"quantity": name, "error": error} for name, error in errors.items()]})
 
 
+@dataclass(frozen=True, kw_only=True)
 class Seconds(Ride):
-    """CPU seconds of setting up, and of a step."""
+    """CPU seconds of setting up, and of a step; `brief` : of all steps that are timed at once, about."""
     alone: ClassVar[bool] = True
+    brief: float
+
+    @property
+    def cost(self) -> float:
+        return 0.1 + 10*self.brief
 
     def run(self, report: Report, folder: Path) -> Outcome:
         ready = self.ready()
-        steps = min(self.steps(ready), max(8, self.work//ready.start.shape[1]))
+        steps = min(self.steps(ready), max(8, int(self.brief/self.price/ready.start.shape[1])))
         try:
             setup, some = (median_seconds(f, clock=process_time)
                            for f in (self.ready, lambda: advanced(ready, ready.dt, steps)))
@@ -125,16 +147,24 @@ def advanced(ready: Ready, dt: float, steps: int, report: Report | None = None) 
 
 
 def cases(size: str) -> list[Case]:
-    """Errors of all, then seconds."""
-    return [*rides(Error, size), *rides(Seconds, size)]
+    """Errors, with all seeds, and seconds; `quick` has two streams, two numbers of rows, two methods."""
+    return [case for ride in rides(size) for case in both(size, *ride)]
 
 
-def rides(kind: type[Ride], size: str) -> Iterator[Ride]:
-    """All scenes, methods, streams, rows; errors with all seeds."""
-    for (name, scene), (method, rider) in product(SCENES.items(), RIDERS.items()):
-        for stream in rider.streams:
-            rows = rider.quick if size == "quick" else rider.rows if stream < 1 else rider.fast
-            seeds = rider.seeds if kind is Error and size != "quick" else 1
-            for L, seed in product(rows, range(1, seeds + 1)):
-                yield kind(name=name, scene=scene(L=L, stream=stream), method=method, variant=variant(method),
-                           seed=seed, price=rider.price)
+def rides(size: str) -> Iterator[tuple[str, Carried, str, Rider]]:
+    """All scenes, methods, streams, rows, but what a method refuses."""
+    for name, kind in SCENES.items():
+        riders = LAYER_RIDERS if name == "convection" else RIDERS
+        for (method, rider), stream in product(riders.items(), STREAMS):
+            quick = size == "quick"
+            if stream in rider.streams and (not quick or (rider.quick and stream in (0.0, 10.0))):
+                rows = rider.rows_in(stream)
+                yield from ((name, kind(L=L, stream=stream), method, rider) for L in rows[:2 if quick else None])
+
+
+def both(size: str, name: str, scene: Carried, method: str, rider: Rider) -> Iterator[Ride]:
+    """Errors and seconds of a method in a scene."""
+    common = {"name": name, "scene": scene, "method": method, "variant": variant(method), "price": rider.price}
+    for seed in range(1, 1 + (rider.seeds if size != "quick" else 1)):
+        yield Error(**common, seed=seed)
+    yield Seconds(**common, brief=BRIEF.get(size, BRIEF["paper"]))

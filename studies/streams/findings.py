@@ -7,11 +7,16 @@ from matplotlib.figure import Figure
 from studies.kit.ask import Value, one
 from studies.kit.claim import Claim
 from studies.kit.figure import Drawing, Drawings, figure, look
-from studies.streams.cases import RIDERS, STREAMS
+from studies.streams.cases import LAYER_RIDERS, RIDERS, STREAMS
 from studies.streams.tables import MOVING
 
+METHODS = list(dict.fromkeys([*RIDERS, *LAYER_RIDERS]))
 #: scene -> quantity that counts, title of its panel
-PANELS = {"vortex": ("velocity", "a vortex that decays")}
+PANELS = {
+    "vortex": ("velocity", "a vortex that decays"), "gresho": ("velocity", "a vortex of even density"),
+    "spot": ("temperature", "a hot spot"), "contact": ("density", "a contact, 1 to 2"),
+    "shear": ("growth", "growth in a shear layer"), "mixing": ("stripe", "a stripe, wound up"),
+    "convection": ("K", "convection, plates slide: K"), "expansion": ("density", "a slab that expands")}
 
 
 def crossing(needed: pd.DataFrame, crossings: pd.DataFrame) -> Figure:
@@ -20,7 +25,7 @@ def crossing(needed: pd.DataFrame, crossings: pd.DataFrame) -> Figure:
     Hollow: by the order of finer rows. Grey: where moving points become cheaper than the grid.
     """
     shown = [name for name in PANELS if name in set(needed.scene)]
-    page, panels = figure(-(-len(shown)//3), min(3, len(shown)), width=3.4, height=2.9, squeeze=False)
+    page, panels = figure(-(-len(shown)//4), min(4, len(shown)), width=2.7, height=2.6, squeeze=False)
     for axes, name in zip(panels.flat, shown):
         quantity, title = PANELS[name]
         of = "scene == @name and quantity == @quantity"
@@ -32,8 +37,8 @@ def crossing(needed: pd.DataFrame, crossings: pd.DataFrame) -> Figure:
         axes.set_ylabel("CPU seconds to 1 %")
     for axes in panels[-1]:
         axes.set_xlabel("speed of the stream over the flow's")
-    handles = [axes.plot([], [], **look(number), label=name)[0] for number, name in enumerate(RIDERS)]
-    page.legend(handles=handles, loc="outside lower center", ncols=3)
+    handles = [axes.plot([], [], **look(number), label=name)[0] for number, name in enumerate(METHODS)]
+    page.legend(handles=handles, loc="outside lower center", ncols=4)
     page.suptitle("What does 1 % cost in a stream? Points that move do not see it\n"
                   "hollow: by the order of the error; grey: they become cheaper than the grid", fontsize=10)
     return page
@@ -41,7 +46,7 @@ def crossing(needed: pd.DataFrame, crossings: pd.DataFrame) -> Figure:
 
 def panel(axes: Axes, needed: pd.DataFrame, crossings: pd.DataFrame) -> None:
     """A line a method, over places of the streams."""
-    for number, name in enumerate(RIDERS):
+    for number, name in enumerate(METHODS):
         rows = needed[(needed.method == name) & needed.cpu_s.notna()].sort_values("stream")
         x, bars = place(rows.stream), np.abs([rows.cpu_s - rows.low, rows.high - rows.cpu_s])
         axes.errorbar(x, rows.cpu_s, yerr=np.minimum(bars, [0.9*rows.cpu_s, np.inf*rows.cpu_s]), **look(number))

@@ -25,7 +25,7 @@ NEEDED = Table.of("needed", SERIES, "reached cpu_s low high rows order least", m
     "cpu_s": ("CPU seconds to an error of 1 %", "s"), "order": ("of the error between the last two", ""),
     "least": ("least error of all rows", "")}, about="What an error of 1 % costs.")
 CROSSINGS = Table.of("crossings", "scene quantity rival", "moving stream low high slowest fastest", means=STREAM | {
-    "moving": ("from where on points that move are cheaper: always, never, from a stream on", ""),
+    "moving": ("when points that move are cheaper: always, never, from a stream on", ""),
     "slowest": ("their seconds over the rival's, at rest", ""),
     "fastest": ("the same in the fastest stream", "")},
     about="From which stream on points that move (moving-delaunay) are cheaper than one that stands still.")
@@ -33,7 +33,7 @@ TABLES = (RUNS, SECONDS, POINTS, NEEDED, CROSSINGS)
 
 WANTED = 0.01
 MOVING = "moving-delaunay"
-STILL = ("grid", "fixed-lattice-h1.2", "fixed-jittered-delaunay")
+STILL = ("grid", "fixed-lattice-h1.2", "fixed-jittered-delaunay", "fixed-jittered-plates")
 SANE = 0.2          # an error beyond which no order holds
 FARTHER = 4.0       # times the rows that ran: so far errors are followed by their order
 
@@ -104,6 +104,8 @@ def crossing(both: pd.DataFrame) -> Row:
     own, other = (both[name].fillna(np.inf) for name in ("cpu_s_moving", "cpu_s"))
     with np.errstate(divide="ignore"):
         ratio = np.log((own/other)[np.isfinite(own) | np.isfinite(other)])
+    if ratio.empty:
+        return {"moving": "neither comes to 1 %"}
     ends = {"slowest": float(np.exp(ratio.get(0.0, np.nan))), "fastest": float(np.exp(ratio.iloc[-1]))}
     wins = int((ratio < 0)[::-1].cummin().sum())
     if wins in (0, len(ratio)):
