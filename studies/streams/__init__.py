@@ -1,4 +1,4 @@
-"""Where do points that move beat those that stand still: the same flow, in streams up to ten times its speed?"""
+"""Where do points that move beat those that stand still, in streams up to ten times as fast as the flow?"""
 from studies.kit.study import Study
 from studies.streams.cases import cases
 from studies.streams.findings import CLAIMS, FIGURES

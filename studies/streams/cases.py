@@ -5,7 +5,6 @@ the machine. The paper size takes about NN minutes of CPU.
 """
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property
 from itertools import product
 from math import ceil
 from pathlib import Path
@@ -28,41 +27,40 @@ from studies.streams.scenes import Carried
 
 STREAMS = (0.0, 0.1, 0.3, 1.0, 3.0, 10.0)
 FEW = (0.0, 1.0, 10.0)      # of methods that cost much, or stay far from 1 %
-SCENES: dict[str, type[scenes.Carried]] = {
+QUICK = (0.0, 10.0)
+SCENES: dict[str, type[Carried]] = {
     "vortex": scenes.DecayingVortex, "spot": scenes.Spot, "contact": scenes.Contact, "shear": scenes.Shear,
     "gresho": scenes.Gresho, "mixing": scenes.Mixing, "convection": scenes.Convection,
     "expansion": scenes.Expansion}
-BRIEF = {"quick": 0.005, "paper": 0.05}     # CPU seconds of the steps that are timed, about
-STILL, RISING, FAST = (16, 32, 64), (32, 64, 128), (32, 64, 128, 192)
+BRIEF = {"quick": 0.005, "paper": 0.05, "fine": 0.05}       # CPU seconds of the steps timed at once, about
+ROWS, FAST = (16, 32, 64), (32, 64, 128, 192)
+LAYER, FINER = (12, 16, 24, 32), (16, 24, 32, 48)           # of convection: runs of ninety free-fall times
 
 
 class Rider(NamedTuple):
-    """A method: its rows by stream, seeds, streams; CPU seconds of a point and step, about; is it quick?"""
-    rows: tuple[int, ...] = STILL
+    """A method: its rows, others in streams of 1 or more; its streams, seeds; CPU seconds of a point and
+    step, about; how many numbers of rows are quick."""
+    rows: tuple[int, ...] = ROWS
+    fast: tuple[int, ...] = FAST
     streams: tuple[float, ...] = STREAMS
     seeds: int = 1
-    price: float = 4e-7
-    quick: bool = False
-    fast: tuple[tuple[int, ...], ...] = (RISING, FAST, FAST)
-
-    def rows_in(self, stream: float) -> tuple[int, ...]:
-        """More of them, the farther a stream carries a flow over points that stay."""
-        return self.rows if stream < 1 or not self.fast else self.fast[STREAMS.index(stream) - 3]
+    price: float = 2e-7
+    quick: int = 0
 
 
-MOVES = Rider(seeds=3, fast=(), quick=True)
-DEAR = Rider((16, 24, 32), FEW, fast=(), price=6e-6)
+MOVES = Rider(fast=ROWS, seeds=3, price=4e-7, quick=2)
+DEAR = Rider((16, 24, 32), (16, 24, 32), FEW, price=4e-6)
 RIDERS = {
-    "grid": Rider(price=2e-7, quick=True), "fixed-lattice-h1.2": Rider(),
-    "fixed-jittered-delaunay": Rider(seeds=3, fast=(RISING,)*3), "moving-delaunay": MOVES, "moving": DEAR,
-    "spam": DEAR, "spam-less-static-50": DEAR}
-#: lattices and closed faces refuse a lower plate that slides; a run lasts ninety free-fall times
-LAYER, FINER = (12, 16, 24, 32), (16, 24, 32, 48)
+    "grid": Rider(price=1e-7, quick=2), "fixed-lattice-h1.2": Rider(),
+    "fixed-jittered-delaunay": Rider(fast=FAST[:3], seeds=3), "moving-delaunay": MOVES,
+    "moving": DEAR, "spam": DEAR, "spam-less-static-50": DEAR}
+#: lattices and closed faces refuse a lower plate that slides
 LAYER_RIDERS = {
-    "grid": Rider(LAYER, price=2e-7, quick=True, fast=(FINER,)*3),
-    "fixed-jittered-plates": Rider(LAYER, fast=(), price=1e-6, seeds=2),
-    "moving-delaunay": MOVES._replace(rows=LAYER, seeds=2),
-    "spam": DEAR._replace(rows=(12, 16, 24)), "spam-less-static-50": DEAR._replace(rows=(12, 16, 24))}
+    "grid": Rider(LAYER, FINER, price=1e-7, quick=2),
+    "fixed-jittered-plates": Rider(LAYER, LAYER, seeds=2, price=8e-7),
+    "moving-delaunay": MOVES._replace(rows=LAYER, fast=LAYER, seeds=2),
+    "spam": DEAR._replace(rows=LAYER[:3], fast=LAYER[:3])}
+LAYER_RIDERS["spam-less-static-50"] = LAYER_RIDERS["spam"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -111,8 +109,9 @@ class Error(Ride):
             errors = self.scene.errors(begun, ended)
         except (Divergence, ArithmeticError):
             errors = dict.fromkeys(self.scene.errors(begun, begun), np.nan)
-        common = self.key_columns | {"seed": self.seed, "points": ready.start.shape[1], "steps": steps}
-        return Outcome({"runs": [common | {"quantity": name, "error": error} for name, error in errors.items()]})
+        common = self.key_columns | {"seed": self.seed, "steps": steps}
+        rows = [common | {"quantity": name, "error": error} for name, error in errors.items()]
+        return Outcome({"runs": rows})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -147,24 +146,18 @@ def advanced(ready: Ready, dt: float, steps: int, report: Report | None = None) 
 
 
 def cases(size: str) -> list[Case]:
-    """Errors, with all seeds, and seconds; `quick` has two streams, two numbers of rows, two methods."""
-    return [case for ride in rides(size) for case in both(size, *ride)]
+    """Errors, with all seeds, and seconds; `quick` has two streams, and few rows of few methods."""
+    return [case for name in SCENES for case in of_scene(size, name)]
 
 
-def rides(size: str) -> Iterator[tuple[str, Carried, str, Rider]]:
-    """All scenes, methods, streams, rows, but what a method refuses."""
-    for name, kind in SCENES.items():
-        riders = LAYER_RIDERS if name == "convection" else RIDERS
-        for (method, rider), stream in product(riders.items(), STREAMS):
-            quick = size == "quick"
-            if stream in rider.streams and (not quick or (rider.quick and stream in (0.0, 10.0))):
-                rows = rider.rows_in(stream)
-                yield from ((name, kind(L=L, stream=stream), method, rider) for L in rows[:2 if quick else None])
-
-
-def both(size: str, name: str, scene: Carried, method: str, rider: Rider) -> Iterator[Ride]:
-    """Errors and seconds of a method in a scene."""
-    common = {"name": name, "scene": scene, "method": method, "variant": variant(method), "price": rider.price}
-    for seed in range(1, 1 + (rider.seeds if size != "quick" else 1)):
-        yield Error(**common, seed=seed)
-    yield Seconds(**common, brief=BRIEF.get(size, BRIEF["paper"]))
+def of_scene(size: str, name: str) -> Iterator[Ride]:
+    """All methods, streams, rows."""
+    riders, quick = LAYER_RIDERS if name == "convection" else RIDERS, size == "quick"
+    for (method, rider), stream in product(riders.items(), QUICK if quick else STREAMS):
+        rows = (rider.fast if stream >= 1 else rider.rows)[:rider.quick if quick else None]
+        for L in rows if stream in rider.streams else ():
+            common = {"name": name, "scene": SCENES[name](L=L, stream=stream), "method": method,
+                      "variant": variant(method), "price": rider.price}
+            for seed in range(1, 2 if quick else 1 + rider.seeds):
+                yield Error(**common, seed=seed)
+            yield Seconds(**common, brief=BRIEF[size])

@@ -14,7 +14,7 @@ from studies.kit.table import Row, Rows, Table, Tables, groups
 RIDE = "scene method stream rows"
 SERIES = "scene quantity method stream"
 STREAM = {"stream": ("speed of the stream over that of the flow, or of sound where it is at rest", "")}
-RUNS = Table.of("runs", f"{RIDE} seed quantity", "error points steps", means=STREAM,
+RUNS = Table.of("runs", f"{RIDE} seed quantity", "error steps", means=STREAM,
                 about="A run to the end of a scene; no error where it diverged.")
 SECONDS = Table.of("seconds", RIDE, "step_s step_s_err setup_s setup_s_err", about="CPU seconds of a step.",
                    means=STREAM | {"step_s": ("CPU seconds of a step of all points", "s")})
@@ -24,10 +24,11 @@ NEEDED = Table.of("needed", SERIES, "reached cpu_s low high rows order least", m
     "reached": ("yes; by order: beyond the rows that ran; at most: the coarsest is below already; no", ""),
     "cpu_s": ("CPU seconds to an error of 1 %", "s"), "order": ("of the error between the last two", ""),
     "least": ("least error of all rows", "")}, about="What an error of 1 % costs.")
-CROSSINGS = Table.of("crossings", "scene quantity rival", "moving stream low high slowest fastest", means=STREAM | {
+CROSSINGS = Table.of("crossings", "scene quantity rival", "moving stream low high slowest fastest", means={
+    "stream": ("that speed of the stream; none where the rival never comes to 1 % beyond `low`", ""),
     "moving": ("when points that move are cheaper: always, never, from a stream on", ""),
     "slowest": ("their seconds over the rival's, at rest", ""),
-    "fastest": ("the same in the fastest stream", "")},
+    "fastest": ("the same in the fastest stream; 0 where the rival does not come to 1 %", "")},
     about="From which stream on points that move (moving-delaunay) are cheaper than one that stands still.")
 TABLES = (RUNS, SECONDS, POINTS, NEEDED, CROSSINGS)
 
@@ -45,8 +46,8 @@ def derive(tables: Tables) -> Rows:
     points = pd.DataFrame(means(tables["runs"], tables["seconds"]), columns=list(POINTS.columns))
     needs = [dict(zip(NEEDED.key, key)) | needed(group.sort_values("rows"))
              for key, group in groups(points, list(NEEDED.key))]
-    return {"points": points.to_dict("records"), "needed": needs,
-            "crossings": list(crossings(pd.DataFrame(needs)))}
+    rows: dict[str, list[Any]] = {"points": points.to_dict("records"), "needed": needs}
+    return rows | {"crossings": list(crossings(pd.DataFrame(needs)))}
 
 
 def means(runs: pd.DataFrame, seconds: pd.DataFrame) -> Iterator[Row]:
@@ -71,6 +72,8 @@ def needed(group: pd.DataFrame) -> Row:
     if not below and not (pair.error.iloc[0] < SANE and rows < FARTHER*pair["rows"].iloc[-1]):
         return {"reached": "no", "order": order, "least": least}
     cpu_s, half = at_level(pair)
+    if not below and len(group) > 2:        # the order may go on changing
+        half = np.hypot(half, abs(np.log(cpu_s/at_level(group.tail(3).head(2))[0]))/2)
     low, high = cpu_s*np.exp([-half, half])
     return {"reached": "yes" if below else "by order", "cpu_s": cpu_s, "low": low, "high": high, "rows": rows,
             "order": order, "least": least}
