@@ -96,21 +96,21 @@ CLAIMS = (
     own("vortex-fast", "in a stream of ten times the flow points that move are cheapest: CPU seconds for 1 % "
         "in a vortex over those of the cheapest grid, lattice or triangulation that stands still",
         f"no more was {ASKED}", cost("vortex", MOVING, 10.0)/STILL_COST, at_most=1),
-    own("vortex-crossing", "points that move win in a vortex once a stream is as fast as the flow: speed over "
-        "the flow's from which on they are cheaper than the compressible grid",
+    own("vortex-crossing", "points that move win in a vortex once a stream is as fast as the flow: speed "
+        "over the flow's from which on they are cheaper than the compressible grid",
         "a flow that moves by its own size while it turns is what carried means",
         one("crossings", "stream", err="high - stream", scene="vortex", quantity="velocity", rival="grid"),
         at_most=1),
-    own("scenes", "in the fastest stream points that move win in every scene: share of those in which one of "
-        "both comes to 1 % with fewer CPU seconds than the compressible grid", "every one",
+    own("scenes", "in the fastest stream points that move win in every scene: share of those with fewer CPU "
+        "seconds for 1 % than the compressible grid, if one of both comes to 1 %", "every one",
         share("crossings", "fastest < 1", f"({COUNTED}) and fastest == fastest", rival="grid"), at_least=1),
     own("plates", "plates that slide along with the stream change nothing, either: |K in the fastest stream "
         "- K at rest|/K of convection, 16 rows", "1 %, the error at which methods are compared",
         abs(error("convection", "K", rows=16) - error("convection", "K", stream=0.0, rows=16)), at_most=0.01),
-    own("mixing", "in a stream points that move mix less by themselves than a grid: error of the variance of "
-        "a wound-up stripe over the compressible grid's, 32 rows, the fastest stream", "less is below 1",
+    own("mixing", "in a stream points that move mix less by themselves than a grid: error of the variance "
+        "of a wound-up stripe over the compressible grid's, 32 rows, the fastest stream", "less is below 1",
         abs(error("mixing", "variance")/error("mixing", "variance", "grid")), at_most=1),
-    own("closed-faces", "closed faces do not see a stream, either: share of runs in streams of 1 or more that "
-        "come to their end", "every run: without a stream all do",
+    own("closed-faces", "closed faces do not see a stream, either: share of runs in streams of 1 or more "
+        "that come to their end", "every run: without a stream all do",
         share("runs", "error == error", "stream >= 1", method="moving"), at_least=1),
 )

@@ -3,10 +3,10 @@
 Flows are told in boxes: a box is 1 high, the gas ideal, C_V = 1, density and temperature about 1. Errors are
 relative, in the frame of the stream.
 """
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 from math import pi, sqrt
+from operator import attrgetter
 from typing import Any, ClassVar
 
 import numpy as np
@@ -43,7 +43,7 @@ class Carried(Scene):
     eta: ClassVar[float]
     k: ClassVar[float]
     lasts: ClassVar[float]
-    start: ClassVar[Callable[[np.ndarray], Start]]
+    start: ClassVar[Any]
     quantities: ClassVar[tuple[str, ...]] = ("velocity",)
     points: ClassVar[int] = 33
     width: ClassVar[Any] = property(lambda self: self.L)    # type: ignore[misc]
@@ -203,8 +203,8 @@ class Shear(Carried):
 
     @staticmethod
     def start(place: np.ndarray) -> Start:
-        one = np.ones(len(place))
-        return one, layer_with_wave(place, Shear.speed, 2*pi, 0.002), one
+        v = layer_with_wave(place, Shear.speed, 2*pi, 0.002)
+        return np.ones(len(v)), v, np.ones(len(v))
 
     def errors(self, first: Fields, at: Fields) -> dict[str, float]:
         """Of the growth; and of the wave, its place included."""
@@ -227,11 +227,6 @@ def limit(column: str) -> float:
     return float(rows[column].iloc[0])
 
 
-def of_layer(name: str) -> Any:
-    """What a scene has from its layer."""
-    return property(lambda self: getattr(self.layer, name))
-
-
 class Convection(Carried):
     """Rayleigh and Benard's between plates that slide with the stream; its speed is sqrt 2 times the rms one,
     as the fastest of a vortex is."""
@@ -239,7 +234,8 @@ class Convection(Carried):
     speed: ClassVar[Any] = property(lambda self: 2*sqrt(limit("ke")))
     wind: ClassVar[Any] = property(lambda self: np.array([self.stream*self.speed, 0.0]))
     time = property(lambda self: FALLS*self.L/self.layer.free_fall)
-    width, law, g, dT, T_hot, T_cold = map(of_layer, ("width", "law", "g", "dT", "T_hot", "T_cold"))  # type: ignore
+    width, law, g, dT, T_hot, T_cold = (  # type: ignore
+        property(attrgetter(f"layer.{name}")) for name in ("width", "law", "g", "dT", "T_hot", "T_cold"))
 
     @property
     def sides(self) -> Sides:  # type: ignore[override]
@@ -251,6 +247,6 @@ class Convection(Carried):
         return rho, v + self.wind, T
 
     def errors(self, first: Fields, at: Fields) -> dict[str, float]:
-        own = at._replace(v=at.v - self.wind)
-        Nu = nusselt(own, self.layer, HeatPath(1, self.dT, self.L))
+        own, heat = at._replace(v=at.v - self.wind), HeatPath(1, self.dT, self.L)
+        Nu = nusselt(own, self.layer, heat)
         return {"K": kinetic_energy(own)/limit("ke") - 1, "Nu": Nu/limit("nu") - 1}
