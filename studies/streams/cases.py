@@ -44,21 +44,21 @@ class Rider(NamedTuple):
     fast: tuple[int, ...] = FAST
     streams: tuple[float, ...] = STREAMS
     seeds: int = 1
-    price: float = 2e-7
+    price: float = 1.5e-7
     quick: int = 0
 
 
 MOVES = Rider(fast=ROWS, seeds=3, price=4e-7, quick=2)
-DEAR = Rider((16, 24, 32), (16, 24, 32), FEW, price=4e-6)
+DEAR = Rider((16, 24, 32), (16, 24, 32), FEW, price=6e-6)
 RIDERS = {
     "grid": Rider(price=1e-7, quick=2), "fixed-lattice-h1.2": Rider(),
     "fixed-jittered-delaunay": Rider(fast=FAST[:3], seeds=3), "moving-delaunay": MOVES,
     "moving": DEAR, "spam": DEAR, "spam-less-static-50": DEAR}
 #: lattices and closed faces refuse a lower plate that slides
 LAYER_RIDERS = {
-    "grid": Rider(LAYER, FINER, price=1e-7, quick=2),
-    "fixed-jittered-plates": Rider(LAYER, LAYER, seeds=2, price=8e-7),
-    "moving-delaunay": MOVES._replace(rows=LAYER, fast=LAYER, seeds=2),
+    "grid": Rider(LAYER, FINER, price=1.5e-7, quick=2),
+    "fixed-jittered-plates": Rider(LAYER, LAYER, seeds=2, price=1.2e-6),
+    "moving-delaunay": MOVES._replace(rows=LAYER, fast=LAYER, seeds=2, price=8e-7),
     "spam": DEAR._replace(rows=LAYER[:3], fast=LAYER[:3])}
 LAYER_RIDERS["spam-less-static-50"] = LAYER_RIDERS["spam"]
 
@@ -75,9 +75,9 @@ class Ride(Case):
 
     @property
     def cost(self) -> float:
-        """Sound and stream pass a spacing in some three steps."""
+        """A step takes a spacing over the speed of sound and half of the stream's."""
         scene = self.scene
-        steps = 2*scene.time*(2 + float(np.abs(scene.wind).sum()))
+        steps = scene.time*(1 + float(np.abs(scene.wind).sum())/2)
         return 0.1 + self.price*scene.width*scene.L*steps
 
     @property

@@ -47,7 +47,7 @@ def derive(tables: Tables) -> Rows:
     needs = [dict(zip(NEEDED.key, key)) | needed(group.sort_values("rows"))
              for key, group in groups(points, list(NEEDED.key))]
     rows: dict[str, list[Any]] = {"points": points.to_dict("records"), "needed": needs}
-    return rows | {"crossings": list(crossings(pd.DataFrame(needs)))}
+    return rows | {"crossings": list(crossings(pd.DataFrame(needs, columns=list(NEEDED.columns))))}
 
 
 def means(runs: pd.DataFrame, seconds: pd.DataFrame) -> Iterator[Row]:
@@ -91,10 +91,10 @@ def at_level(pair: pd.DataFrame) -> tuple[float, float]:
 def crossings(needs: pd.DataFrame) -> Iterator[Row]:
     """Of each scene, against each that stands still."""
     for (scene, quantity), here in groups(needs, ["scene", "quantity"]):
-        moving = here[here.method == MOVING].set_index("stream")
+        moving = here[here.method == MOVING]
         for rival in STILL:
-            still = here[here.method == rival].set_index("stream")
-            both = still.join(moving, rsuffix="_moving", how="inner").sort_index()
+            both = here[here.method == rival].merge(moving, on="stream", suffixes=("", "_moving"))
+            both = both.set_index("stream").sort_index()
             if len(both):
                 yield {"scene": scene, "quantity": quantity, "rival": rival} | crossing(both)
 
