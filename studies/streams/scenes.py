@@ -53,13 +53,10 @@ class Carried(Scene):
         """(rho, v, T) at the end, without stream."""
         return periodic.fields(periodic.solved(cls.start, cls.eta, cls.k, cls.lasts, cls.points), place)
 
+    #: velocity of the stream (2,)
+    wind: ClassVar[Any] = property(lambda self: self.stream*self.speed*ALONG)
     law: ClassVar[Any] = property(lambda self: ConstEta(self.eta*self.L, self.k*self.L))
     time: ClassVar[Any] = property(lambda self: self.lasts*self.L)
-
-    @property
-    def wind(self) -> np.ndarray:
-        """Velocity of the stream (2,)."""
-        return self.stream*self.speed*ALONG
 
     def fields(self, x: np.ndarray) -> Start:
         rho, v, T = self.start(x/self.L)
@@ -93,10 +90,10 @@ def as_dense(scene: Carried, x: np.ndarray) -> np.ndarray:
     rho, *_ = scene.fields(box*np.stack(np.meshgrid(axis, axis, indexing="ij"), axis=-1).reshape(-1, 2))
     below = np.pad(np.cumsum(rho.reshape(CELLS, CELLS), axis=1), ((0, 0), (1, 0)))
     left = np.append(0, np.cumsum(below[:, -1]))
-    a, b = (x/box + 0.5).T
-    a = np.interp(a*left[-1], left, ends)
+    shares = x/box + 0.5
+    a = np.interp(shares[:, 0]*left[-1], left, ends)
     columns = np.clip(((a + 0.5)*CELLS).astype(int), 0, CELLS - 1)
-    b = [np.interp(part*below[i, -1], below[i], ends) for i, part in zip(columns, b)]
+    b = [np.interp(share*below[i, -1], below[i], ends) for i, share in zip(columns, shares[:, 1])]
     return box*np.stack([a, b], axis=1)
 
 
@@ -182,8 +179,8 @@ class Gresho(Carried):
 
     @classmethod
     def end(cls, place: np.ndarray) -> Start:
-        one = np.ones(len(place))
-        return one, cls.speed*gresho.velocity_at(cls.eta*cls.lasts, place), one
+        v = cls.speed*gresho.velocity_at(cls.eta*cls.lasts, place)
+        return np.ones(len(v)), v, np.ones(len(v))
 
     def errors(self, first: Fields, at: Fields) -> dict[str, float]:
         """And of the angular momentum."""
@@ -248,5 +245,5 @@ class Convection(Carried):
 
     def errors(self, first: Fields, at: Fields) -> dict[str, float]:
         own, heat = at._replace(v=at.v - self.wind), HeatPath(1, self.dT, self.L)
-        Nu = nusselt(own, self.layer, heat)
-        return {"K": kinetic_energy(own)/limit("ke") - 1, "Nu": Nu/limit("nu") - 1}
+        return {"K": kinetic_energy(own)/limit("ke") - 1,
+                "Nu": nusselt(own, self.layer, heat)/limit("nu") - 1}

@@ -25,8 +25,10 @@ NEEDED = Table.of("needed", SERIES, "reached cpu_s low high rows order least", m
     "cpu_s": ("CPU seconds to an error of 1 %", "s"), "order": ("of the error between the last two", ""),
     "least": ("least error of all rows", "")}, about="What an error of 1 % costs.")
 CROSSINGS = Table.of("crossings", "scene quantity rival", "moving stream low high slowest fastest", means={
-    "stream": ("that speed of the stream; none where the rival never comes to 1 % beyond `low`", ""),
-    "moving": ("when points that move are cheaper: always, never, from a stream on", ""),
+    "rival": ("who stands still", ""), "low": ("lower end of its 95 % interval", ""),
+    "high": ("upper end of its 95 % interval", ""),
+    "moving": ("who is cheaper: always, never, from a stream on; or neither comes to 1 %", ""),
+    "stream": ("that speed of the stream; none where one of both never comes to 1 % beyond `low`", ""),
     "slowest": ("their seconds over the rival's, at rest", ""),
     "fastest": ("the same in the fastest stream; 0 where the rival does not come to 1 %", "")},
     about="From which stream on points that move (moving-delaunay) are cheaper than one that stands still.")
