@@ -1,5 +1,6 @@
 """Shear flows: from rest between plates, as series, heights y/H, times in H^2/nu; waves of a periodic one."""
 import numpy as np
+from scipy.integrate import solve_ivp
 
 HARMONICS = 20      # on either side: the growth rate is good to 1e-9
 TERMS = 60          # the next one is exp(-60^2 pi^2 0.02) = 1e-308 at t = 0.02
@@ -45,3 +46,21 @@ def layer_with_wave(x: np.ndarray, U: float, k: float, size: float) -> np.ndarra
     waves = psi[:, None]*np.exp(1j*(kx*x[:, 0] + n*k*x[:, 1]))
     u = U*np.sin(k*x[:, 1]) + (1j*n*k*waves).sum(axis=0).real
     return np.stack([u, -(1j*kx*waves).sum(axis=0).real], axis=1)
+
+
+def viscous_growth(U: float, k: float, kx: float, nu: float, time: float) -> float:
+    """How many times as large the wave of `growing_wave` is after a time, u = U sin ky exp(-nu k^2 t).
+
+    Small waves of the decaying layer: U(t) in the rates of `growing_wave`, less nu K_n^2 q_n.
+    """
+    n = np.arange(-HARMONICS, HARMONICS + 1)
+    K2 = kx**2 + (n*k)**2
+    part = kx*U/2*(1 - k**2/K2)
+    mixing = np.diag(part[1:], 1) - np.diag(part[:-1], -1)
+    _, psi = growing_wave(U, k, kx)
+    first = -K2*psi/psi[HARMONICS]
+
+    def slope(t: float, q: np.ndarray) -> np.ndarray:
+        return np.exp(-nu*k**2*t)*(mixing@q) - nu*K2*q
+    q = solve_ivp(slope, (0, time), first.astype(complex), rtol=1e-9, atol=1e-12).y[:, -1]
+    return float(abs(q[HARMONICS]/first[HARMONICS]))

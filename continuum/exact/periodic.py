@@ -1,0 +1,60 @@
+"""A gas in a square periodic box by Fourier sums, as in `vortex`, from any smooth start, k and eta apart.
+
+Where friction is weak the shortest waves feed on products of others: each step takes them away, by
+exp(-36 (m/m_max)^16) of wave m    [Hou & Li 2007]
+
+Lengths are in boxes: a start takes places (m, 2) from -1/2 to 1/2 and gives rho (m,), v (m, 2), T (m,).
+"""
+from collections.abc import Callable
+from functools import cache
+from math import ceil
+
+import numpy as np
+
+from continuum.exact.vortex import ODD, derivative, longest_step, rates, waves
+
+OF_LIMIT = 0.9      # of the longest stable step: what a run resolves is far longer than its shortest wave
+Start = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray, np.ndarray]]
+
+
+@cache
+def solved(start: Start, eta: float, k: float, time: float, n: int = ODD) -> np.ndarray:
+    """Fourier amplitudes (n, n, 4) of (rho, u, v, T) after a time, on n x n points, n odd, by RK4."""
+    axis, D = np.arange(n) - (n - 1)/2, derivative(n)
+    rho, v, T = start(np.stack(np.meshgrid(axis, axis, indexing="ij"), axis=-1).reshape(-1, 2)/n)
+    state = np.array([rho, *(rho*v.T), rho*(T + (v**2).sum(axis=1)/2)]).reshape(4, n, n)
+    into_waves = waves(axis/n, n).conj()/n
+    smooth = (np.conj(n*into_waves)*kept(n)@into_waves.T).real
+    steps = ceil(n*time/(OF_LIMIT*longest_step(state, n*max(eta, k))))
+    dt = n*time/steps
+    for _ in range(steps):
+        a = slopes(state, n*eta, n*k, D)
+        b = slopes(state + dt/2*a, n*eta, n*k, D)
+        c = slopes(state + dt/2*b, n*eta, n*k, D)
+        state = state + dt/6*(a + 2*b + 2*c + slopes(state + dt*c, n*eta, n*k, D))
+        state = smooth@state@smooth.T
+    rho, (u, v) = state[0], state[1:3]/state[0]
+    fields = np.array([rho, u, v, state[3]/rho - (u**2 + v**2)/2])
+    return np.einsum("xk,yl,axy->kla", into_waves, into_waves, fields, optimize=True)
+
+
+def kept(n: int) -> np.ndarray:
+    """What a step leaves of waves m = -(n - 1)/2 ... (n - 1)/2."""
+    return np.exp(-36*np.linspace(-1, 1, n)**16)
+
+
+def slopes(state: np.ndarray, eta: float, k: float, D: np.ndarray) -> np.ndarray:
+    """d(state)/dt, (4, n, n); `rates` conducts as much as it rubs."""
+    out = rates(state, eta, D)
+    if k != eta:
+        rho = state[0]
+        T = state[3]/rho - (state[1:3]**2).sum(axis=0)/(2*rho**2)
+        out[3] += (k - eta)*(D@(D@T) + (T@D.T)@D.T)
+    return out
+
+
+def fields(amplitudes: np.ndarray, place: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """rho (p,), v (p, 2), T (p,) at places (p, 2)."""
+    x, y = (waves(axis, len(amplitudes)) for axis in place.T)
+    rho, u, v, T = np.einsum("pk,pl,kla->ap", x, y, amplitudes, optimize=True).real
+    return rho, np.stack([u, v], axis=1), T

@@ -1,0 +1,163 @@
+"""Which methods ride in which stream, with how many rows, and what a ride gives: errors, steps, seconds.
+
+Each method takes its own usual step. Errors and seconds are cases of their own: what is timed never shares
+the machine. The paper size takes about 45 minutes of CPU, ten of them alone.
+"""
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import product
+from math import ceil
+from pathlib import Path
+from time import process_time
+from typing import Any, ClassVar, NamedTuple
+
+import numpy as np
+
+from continuum.fluid import Fields
+from particles.run import Divergence, Plan, run
+from studies.build import variant
+from studies.build.grid import Gridded
+from studies.build.setting import Ready
+from studies.front.observed import seen
+from studies.front.solving import prepared
+from studies.kit.case import Case, Outcome, Report
+from studies.kit.timing import SPREAD_TO_ERR, median_seconds
+from studies.streams import scenes
+from studies.streams.scenes import Carried
+
+STREAMS = (0.0, 0.1, 0.3, 1.0, 3.0, 10.0)
+FEW = (0.0, 1.0, 10.0)      # of methods that cost much, or stay far from 1 %
+QUICK = (0.0, 10.0)
+SCENES: dict[str, type[Carried]] = {
+    "vortex": scenes.DecayingVortex, "spot": scenes.Spot, "contact": scenes.Contact, "shear": scenes.Shear,
+    "gresho": scenes.Gresho, "mixing": scenes.Mixing, "convection": scenes.Convection,
+    "expansion": scenes.Expansion}
+BRIEF = {"quick": 0.005, "paper": 0.05, "fine": 0.05}       # CPU seconds of the steps timed at once, about
+ROWS, FAST = (16, 32, 64), (32, 64, 128, 192)
+LAYER, FINER = (12, 16, 24, 32), (16, 24, 32, 48)           # of convection: runs of ninety free-fall times
+
+
+class Rider(NamedTuple):
+    """A method: its rows, others in streams of 1 or more; its streams, seeds; CPU seconds of a point and
+    step, about; how many numbers of rows are quick."""
+    rows: tuple[int, ...] = ROWS
+    fast: tuple[int, ...] = FAST
+    streams: tuple[float, ...] = STREAMS
+    seeds: int = 1
+    price: float = 1.5e-7
+    quick: int = 0
+
+
+MOVES = Rider(fast=ROWS, seeds=3, price=4e-7, quick=2)
+DEAR = Rider((16, 24, 32), (16, 24, 32), FEW, price=6e-6)
+RIDERS = {
+    "grid": Rider(price=1e-7, quick=2), "fixed-lattice-h1.2": Rider(),
+    "fixed-jittered-delaunay": Rider(fast=FAST[:3], seeds=3), "moving-delaunay": MOVES,
+    "moving": DEAR, "spam": DEAR, "spam-less-static-50": DEAR}
+#: lattices and closed faces refuse a lower plate that slides
+LAYER_RIDERS = {
+    "grid": Rider(LAYER, FINER, price=1.5e-7, quick=2),
+    "fixed-jittered-plates": Rider(LAYER, LAYER, seeds=2, price=1.2e-6),
+    "moving-delaunay": MOVES._replace(rows=LAYER, fast=LAYER, seeds=2, price=8e-7),
+    "spam": DEAR._replace(rows=LAYER[:3], fast=LAYER[:3])}
+LAYER_RIDERS["spam-less-static-50"] = LAYER_RIDERS["spam"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Ride(Case):
+    """A method in a scene."""
+    name: str
+    scene: Any
+    method: str
+    variant: Any
+    seed: int = 1
+    price: float
+
+    @property
+    def cost(self) -> float:
+        """A step takes a spacing over the speed of sound and half of the stream's."""
+        scene = self.scene
+        steps = scene.time*(1 + float(np.abs(scene.wind).sum())/2)
+        return 0.1 + self.price*scene.width*scene.L*steps
+
+    @property
+    def label(self) -> str:
+        return (f"{type(self).__name__} {self.name}, {self.method}, {self.scene.L} rows, stream "
+                f"{self.scene.stream:g}, seed {self.seed}")
+
+    @property
+    def key_columns(self) -> dict[str, Any]:
+        """That every row has."""
+        return {"scene": self.name, "method": self.method, "rows": self.scene.L, "stream": self.scene.stream}
+
+    def ready(self) -> Ready:
+        return prepared(self.scene, self.variant, self.seed)
+
+    def steps(self, ready: Ready) -> int:
+        """To the end of the scene."""
+        return ceil(self.scene.time/ready.dt)
+
+
+class Error(Ride):
+    """How far from the exact answer it ends."""
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        ready = self.ready()
+        steps, begun = self.steps(ready), ready.method.fields(ready.start)
+        try:
+            ended = advanced(ready, self.scene.time/steps, steps, report)
+            errors = self.scene.errors(begun, ended)
+        except (Divergence, ArithmeticError):
+            errors = dict.fromkeys(self.scene.errors(begun, begun), np.nan)
+        common = self.key_columns | {"seed": self.seed, "steps": steps}
+        rows = [common | {"quantity": name, "error": error} for name, error in errors.items()]
+        return Outcome({"runs": rows})
+
+
+@dataclass(frozen=True, kw_only=True)
+class Seconds(Ride):
+    """CPU seconds of setting up, and of a step; `brief` : of all steps that are timed at once, about."""
+    alone: ClassVar[bool] = True
+    brief: float
+
+    @property
+    def cost(self) -> float:
+        return 0.1 + 10*self.brief
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        ready = self.ready()
+        steps = min(self.steps(ready), max(8, int(self.brief/self.price/ready.start.shape[1])))
+        try:
+            setup, some = (median_seconds(f, clock=process_time)
+                           for f in (self.ready, lambda: advanced(ready, ready.dt, steps)))
+        except (Divergence, ArithmeticError):
+            return Outcome({"seconds": []})
+        return Outcome({"seconds": [self.key_columns | {
+            "step_s": some.median/steps, "step_s_err": SPREAD_TO_ERR*some.spread/steps,
+            "setup_s": setup.median, "setup_s_err": SPREAD_TO_ERR*setup.spread}]})
+
+
+def advanced(ready: Ready, dt: float, steps: int, report: Report | None = None) -> Fields:
+    """Fields so many steps later; the grid takes them in its own loop. Raises Divergence."""
+    method, start = ready.method, ready.start
+    if not isinstance(method, Gridded):
+        return seen(method, run(method, start, Plan(dt=dt, steps=steps), report).by_id())
+    return method.fields(method.go(method.block(start), dt, steps))
+
+
+def cases(size: str) -> list[Case]:
+    """Errors, with all seeds, and seconds; `quick` has two streams, and few rows of few methods."""
+    return [case for name in SCENES for case in of_scene(size, name)]
+
+
+def of_scene(size: str, name: str) -> Iterator[Ride]:
+    """All methods, streams, rows."""
+    riders, quick = LAYER_RIDERS if name == "convection" else RIDERS, size == "quick"
+    for (method, rider), stream in product(riders.items(), QUICK if quick else STREAMS):
+        rows = (rider.fast if stream >= 1 else rider.rows)[:rider.quick if quick else None]
+        for L in rows if stream in rider.streams else ():
+            common = {"name": name, "scene": SCENES[name](L=L, stream=stream), "method": method,
+                      "variant": variant(method), "price": rider.price}
+            for seed in range(1, 2 if quick else 1 + rider.seeds):
+                yield Error(**common, seed=seed)
+            yield Seconds(**common, brief=BRIEF[size])
