@@ -5,10 +5,9 @@ import strangers
 
 from studies.judge import ladder
 from studies.judge.__main__ import main
-from studies.judge.ladder import Take, climb, judged
+from studies.judge.ladder import RUNGS, Take, climb, judged
 from studies.judge.measures import convergence, right
 from studies.judge.page import pace
-from studies.judge.rungs import RUNGS
 from studies.kit.key import ROOT
 
 QUICK = ["--rows", "8", "12", "--out"]

@@ -11,9 +11,8 @@ from matplotlib.figure import Figure
 
 from particles.run import Plan, run
 from studies.build import SCENES, ready
-from studies.judge.ladder import Take, verdicts
+from studies.judge.ladder import Rung, Take, verdicts
 from studies.judge.measures import Numbers, Verdict
-from studies.judge.rungs import Rung
 from studies.kit.csvfile import commit, cpu, now, read, versions, write, write_atomic
 from studies.kit.figure import errorbar, figure, look
 from studies.kit.stats import Measured
@@ -22,29 +21,7 @@ from studies.kit.store import RESULTS
 SCENE = "rayleigh-benard"
 #: a method that both this machine and that of the tables have run, its rows there and its steps here
 SHARED, ROWS, STEPS = "fixed-lattice-h1.2", 16, 400
-PAGE = Environment(autoescape=True).from_string("""<!doctype html>
-<html lang="en"><meta charset="utf-8"><title>{{ name }}, judged</title>
-<style>
-body { font: 16px/1.45 system-ui, sans-serif; color: #222 }
-body { max-width: 72rem; margin: 2rem auto; padding: 0 1rem }
-table { border-collapse: collapse } .good { color: #00664a } .bad { color: #a33c00 } small { color: #555 }
-th, td { text-align: left; vertical-align: top; padding: .4rem .8rem .4rem 0; border-top: 1px solid #ccc }
-img { max-width: 100% }
-</style>
-<h1>{{ name }}</h1>
-<p>{{ good }} of {{ rungs|length }} rungs are good.</p>
-<table><tr><th>Rung<th>Verdict<th>Numbers<th>Seconds
-{% for one in rungs %}<tr><td>{{ one.name }}<br><small>{{ one.asks }}</small>
-<td class="{{ one.mark }}">{{ one.words }}<br><small>Rule: {{ one.rule }}.</small>
-<td>{% for line in one.lines %}{{ line }}<br>{% endfor %}<td>{{ one.seconds }}
-{% endfor %}</table>
-{% if image %}<h2>Error of K against cost</h2>
-<p>Rayleigh-Benard convection, Ra 10 000, Pr 1, over 90 free-fall times. The other methods are those of
-results/cost, each at its longest step. Seconds of {{ name }} are converted to the machine of these tables
-by a lattice that both have run.</p>
-<img alt="Error of K against CPU seconds" src="data:image/png;base64,{{ image }}">{% endif %}
-<p><small>{{ made }}</small>
-""")
+PAGE = Environment(autoescape=True).from_string(Path(__file__).with_suffix(".html").read_text())
 
 
 def write_page(name: str, takes: Sequence[Take], out: Path) -> Path:
