@@ -32,22 +32,7 @@ OTHERS = {
     "films": [FILMS],
     ".": [Table.of("times", "study size", "cases estimate_s cpu_s commit", about="A whole study in one size.",
                    means={"size": ("SIZE of the study", ""), "cpu_s": ("CPU seconds of all cases", "s")})]}
-HEAD = """# Tables
-
-Written by `python -m studies.report tables` from the tables that the studies declare. Each file is read by
-`pd.read_csv(path, comment="#")`, packed (`.csv.gz`) or not. `(none)` is an empty text, an empty cell a
-number that is missing. The statements in [`claims.csv`](claims.csv) have their columns explained in the
-head of the file.
-
-Columns in **bold** are the key: no two rows agree in them. `x_err` is half the width of the 95 % interval
-of `x`, in the same unit. Each row of a study also has `size` and `commit`, and may have `seed`, `threads`,
-`cpu_s`, `compile_s`.
-
-Units: a is the mean spacing of particles or points (sigma in KHP95), m their mass, epsilon KHP95's energy,
-which is kB times the difference of temperature of the plates; t0 = a (m/epsilon)^(1/2), v0 = a/t0, c the
-speed of sound, L the height of the scene, rc the range of dissipative particles. Without unit: a ratio, a
-count, a name.
-"""
+HEAD = Path(__file__).parent/"sentences"/"tables.md"
 
 
 def write_tables(out: Path) -> Path:
@@ -59,7 +44,7 @@ def write_tables(out: Path) -> Path:
 
 def text() -> str:
     """The whole file."""
-    parts = [HEAD]
+    parts = [HEAD.read_text()]
     for folder, tables in folders():
         parts.append(f"\n## {folder}\n" if folder != "." else "\n## All studies\n")
         parts += ["\n".join(lines(folder, table)) for table in tables]
