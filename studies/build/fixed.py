@@ -168,8 +168,10 @@ def heat_in(sums: LayerSums, state: np.ndarray, plate: int) -> float:
     return sums.heat_through(plate)
 
 
-def heat_of_rows(sums: Streaming, state: np.ndarray, plate: int) -> float:
-    """The same where rows of points are the plate."""
+def heat_of_rows(sums: Any, state: np.ndarray, plate: int) -> float:
+    """The same where rows of points are the plate; on a torus, which has no rows, as above."""
+    if not isinstance(sums, Streaming):
+        return heat_in(sums, state, plate)
     sums.rates(state, np.empty_like(state))
     return -float(sums.received[on_plate(sums.method.held, plate), 2].sum())
 
