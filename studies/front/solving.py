@@ -30,6 +30,7 @@ from studies.front.observed import numbers, recorded, seen
 from studies.front.picture import pictures
 from studies.front.references import REFERENCES, solved
 from studies.front.solution import Solution
+from studies.kit.stats import with_errors
 
 SAMPLES = 400       # of a history
 #: name -> what solves a scene
@@ -162,7 +163,7 @@ class Comparison:
     @property
     def table(self) -> pd.DataFrame:
         """A row a method and resolution: numbers, each with its error, and what they cost."""
-        return pd.DataFrame([row(one, with_errors(one)) for one in self.solutions])
+        return pd.DataFrame([row(one, with_errors(**one.numbers)) for one in self.solutions])
 
     def plot(self, path: str | Path | None = None) -> Figure:
         """Flows of the finest resolution above; each number against the cost below."""
@@ -179,12 +180,6 @@ class Comparison:
 def row(one: Solution, numbers: dict[str, Any]) -> dict[str, Any]:
     """A line of the table."""
     return {"method": one.method, "rows": one.rows, **numbers, "cpu_s": one.cpu_s, "steps": one.steps}
-
-
-def with_errors(one: Solution) -> dict[str, float]:
-    """K, K_err, and so on."""
-    return {name + end: number for name, value in one.numbers.items()
-            for end, number in zip(("", "_err"), value)}
 
 
 def compare(scene: Any, methods: Sequence[Any], rows: Sequence[int] | int = (16, 25),
