@@ -53,7 +53,6 @@ class Scheme(NamedTuple):
     held: bool = False
 
     def refuses(self, scene: Any) -> str:
-        """Which part of a scene this cannot take; empty for none."""
         return sticking(scene) if self.held and isinstance(scene.sides, Sides) else no_layer(scene)
 
     def ready(self, scene: Any, seed: int = 1, fields: tuple | None = None) -> Ready:

@@ -1,6 +1,6 @@
 """The figures of a study, and their look: told apart by colour, marker and line, in grey too."""
 import io
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -52,7 +52,7 @@ def errorbar(axes: Axes, x: Numbers, y: Numbers, err: Numbers, *, number: int = 
     axes.errorbar(x, y, yerr=err, label=label, **{**look(number), "linestyle": "none", **more})
 
 
-def plain_ticks(axes: Axes, values: Iterable[float], others: Iterable[float] = ()) -> None:
+def plain_ticks(axes: Axes, values: Sequence[float]) -> None:
     """Ticks along x at values, the first ones with their number, others without where numbers would touch."""
     scale = np.log10 if axes.get_xscale() == "log" else float
     low, high = map(scale, axes.get_xlim())
@@ -63,7 +63,7 @@ def plain_ticks(axes: Axes, values: Iterable[float], others: Iterable[float] = (
         if all(abs(at - other) > half + reach for other, reach in kept.values()):
             kept[value] = at, half
     axes.set_xticks(list(kept), labels=[f"{value:.0f}" for value in kept])
-    axes.set_xticks(sorted({*values, *others} - {*kept}), minor=True)
+    axes.set_xticks(sorted({*values} - {*kept}), minor=True)
     axes.tick_params(axis="x", which="minor", labelbottom=False)
 
 

@@ -78,10 +78,10 @@ def polynomial(x: Numbers, y: Numbers, degree: int = 1, *, weight: Numbers | Non
     return Fit(A@y, spread, residuals)
 
 
-def weighted(x: Numbers, y: Numbers, err: Numbers, degree: int = 1) -> Fit:
-    """Least squares of (y - c_0 - c_1 x ...)/err; the error is what those of the values leave."""
+def weighted(x: Numbers, y: Numbers, err: Numbers) -> Fit:
+    """Least squares of (y - c_0 - c_1 x)/err; the error is what those of the values leave."""
     y, err = np.asarray(y, float), np.asarray(err, float)
-    X = vander(np.asarray(x, float), degree)
+    X = vander(np.asarray(x, float), 1)
     wX = X/err[:, None]
     spread = np.linalg.inv(wX.T@wX)
     c = spread@wX.T@(y/err)
