@@ -23,7 +23,7 @@ from particles.threads import Threads
 from studies.build import SCENES, ready
 from studies.build.fixed import between_sides
 from studies.build.measure import heat_at_rest
-from studies.build.moving_delaunay import CARRIAGES, NONE_HELD, Carriage
+from studies.build.moving import CARRIAGES, NONE_HELD, Carriage
 from studies.build.setting import shifted
 from studies.conservation.discs import between_circles, turning
 

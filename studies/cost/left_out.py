@@ -21,8 +21,7 @@ from particles.integral.thermal import Thermal
 from particles.integrators import RK4
 from particles.threads import Threads
 from studies.build.fixed import SCHEMES, Scheme, kinetic
-from studies.build.moving import MOTIONS
-from studies.build.moving_delaunay import CARRIAGES
+from studies.build.moving import CARRIAGES, MOTIONS
 from studies.build.scenes import TaylorGreen
 from studies.cost.contestants import ExactFlow, carried, on_mac, points
 from studies.cost.problem import Problem, of_method, rms

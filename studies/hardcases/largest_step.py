@@ -24,8 +24,7 @@ from particles.run import Run
 from particles.threads import Threads
 from studies.build.fixed import Scheme
 from studies.build.grid import GridForm
-from studies.build.moving import DriftMotion, FacesMotion
-from studies.build.moving_delaunay import Carriage
+from studies.build.moving import Carriage, DriftMotion, FacesMotion
 from studies.build.scenes import SOUND, TINY, Scene, Slab
 from studies.build.spam import Variant
 from studies.build.unguarded import GROWN, NOISE, Unguarded, bisected, noise_grows

@@ -5,8 +5,7 @@ from itertools import product
 from continuum.fluid import ConstNu
 from continuum.scene import RayleighBenard, Walls
 from studies.build.fixed import SCHEMES
-from studies.build.moving import DRIFT_MOTIONS, MOTIONS
-from studies.build.moving_delaunay import CARRIAGES
+from studies.build.moving import CARRIAGES, DRIFT_MOTIONS, MOTIONS
 from studies.kit.case import Case
 from studies.rb.runs.points import CarriedRun, DihRun, DriftRun, MovingRun
 

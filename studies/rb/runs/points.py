@@ -13,8 +13,7 @@ from particles.observe import Grid, Smoothed
 from particles.run import Run
 from studies.build.fixed import SCHEMES, Scheme
 from studies.build.measure import ended, followed, heat_at_rest, rolls
-from studies.build.moving import DRIFT_MOTIONS, MOTIONS, DriftMotion, FacesMotion
-from studies.build.moving_delaunay import CARRIAGES, Carriage
+from studies.build.moving import CARRIAGES, DRIFT_MOTIONS, MOTIONS, Carriage, DriftMotion, FacesMotion
 from studies.build.names import HALVES, VALUES, one_energy, scene_columns
 from studies.build.setting import Ready, check_spacings
 from studies.kit.case import Case, Outcome, Report
