@@ -14,10 +14,10 @@ from studies.rb.looks import ENERGIES, KHP95_PARTICLES, KIND, LAYER, RA_SHOWN
 
 RA_C = published("chandrasekhar-ra-rigid").value
 #: points beside the grid and smooth particles, and how far their marks are moved right
-POINTS = {"fixed-lattice": -energy.ASIDE, "fixed-jittered-plates": 0.0, "moving": energy.ASIDE}
+POINTS = {"fixed-lattice": -energy.ASIDE, "fixed-jittered-plates": 0.0, "moving-delaunay": energy.ASIDE}
 SHOWN = {key: errors.METHODS[key] for key in (
     "compressible flux-form Kp", "spam printed Kp", "spam printed Kg",
-    "dih fixed-lattice Kp", "dih fixed-jittered-plates Kp", "dih moving Kp")}
+    "dih fixed-lattice Kp", "dih fixed-jittered-plates Kp", "dih moving-delaunay Kp")}
 
 
 def main(tables: Tables) -> Figure | None:

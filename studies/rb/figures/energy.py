@@ -168,11 +168,11 @@ def variants(tables: Tables) -> Figure | None:
 
 
 def moving_points(tables: Tables) -> Figure | None:
-    """Errors of the kinetic energy on points that move: the scheme, without each of its ingredients, and the
-    motions of RR98. Filled marks have 40 rows of points, open ones 25.
+    """Errors of the kinetic energy on points that move: with their triangulation, over closed faces with and
+    without each ingredient, by the motions of RR98. Filled marks have 40 rows of points, open ones 25.
     """
-    question = "Points that move: what do their ingredients do?"
-    return changes(tables, "dih", (*MOTIONS, *DRIFT_MOTIONS), (40, 25), {"Kp": "$K$"}, question)
+    question, order = "Points that move: what do their ingredients do?", (*MOTIONS, *DRIFT_MOTIONS)
+    return changes(tables, "dih", ("moving-delaunay", *order), (40, 25), {"Kp": "$K$"}, question)
 
 
 def changes(tables: Tables, method: str, order: Iterable[str], sizes: tuple[int, int],
