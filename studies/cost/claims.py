@@ -1,7 +1,7 @@
 """What errors cost and what terms cost, judged    [KHP95 Secs I, II, VII; RR98 Sec. III]"""
 import numpy as np
 
-from studies.cost.tables import GRID, JITTERED, LATTICE, LUCY, MOVING, NEAREST, PYPDE, WIDE
+from studies.cost.tables import CARRIED, GRID, JITTERED, LATTICE, LUCY, MAC, MOVING, NEAREST, PYPDE, WIDE
 from studies.kit.ask import Value, first, last, one
 from studies.kit.claim import Claim
 
@@ -11,6 +11,9 @@ LOWER_K = {"scene": "convection-5000", "quantity": "K"}
 VORTEX = {"scene": "taylor-green", "quantity": "velocity"}
 SOUND = {"scene": "sound", "quantity": "velocity"}
 LOWER = {"scene": "convection-5000", "quantity": "velocity"}
+FLOW = {"scene": "convection", "quantity": "velocity"}
+STAGGERED = first("needed", "cpu_s", 'reached == "yes"', by="cpu_s", err="high - cpu_s", level=0.01,
+                  method=(MAC, PYPDE), **VORTEX)
 #: N ln N from 1e3 to 1e6: ln(1e6)/ln(1e3) = 2 over three decades
 N_LN_N = round(1 + np.log10(2)/3, 3)
 REACHED = 'reached == "yes"'    # runs on both sides of the level
@@ -44,7 +47,41 @@ def no_dearer(name: str, where: dict[str, str], words: str, rival: str = GRID) -
                            f"1 % in {where['quantity']} over those of {rival}")
 
 
+ASKED = "asked for before it had been raced"
+POINTS = "points that move with their triangulation"
+
+
+def carried(name: str, where: dict[str, str], rival: Value, at_most: float, words: str) -> Claim:
+    """Of points that move with their triangulation."""
+    return Claim(id=f"own-speed-carried-{name}", source="RR98 Sec. III", at_most=at_most, because=ASKED,
+                 value=seconds(CARRIED, where)/rival,
+                 statement=f"{POINTS} cost at most {words}: CPU seconds for 1 % in {where['quantity']} of "
+                           f"{where['scene']} over theirs, each at its own longest step")
+
+
+def two(name: str, method: str, at_least: float, because: str, words: str, printed: str = "") -> Claim:
+    """How much faster two threads are than one, at the largest number of particles."""
+    most = {"by": "most", "method": method, "what": "two threads"}
+    return Claim(id=f"own-speed-threads-{name}", source="KHP95 Sec. I", at_least=at_least, because=because,
+                 printed=printed, value=last("growth_laws", "value", "most >= 1e5", **most),
+                 statement=f"{words} are easily computed in parallel: time that passes with one thread over "
+                           "that with two, at the largest number of particles")
+
+
 ERRORS = (
+    carried("k", K, seconds(GRID, K), 1, "the seconds of the compressible grid"),
+    carried("5000", LOWER_K, seconds(GRID, LOWER_K), 1, "the seconds of the compressible grid"),
+    carried("velocity", FLOW, seconds(GRID, FLOW), 4, "four times the seconds of the compressible grid"),
+    carried("vortex", VORTEX, STAGGERED, 1.5, "one and a half times the seconds of staggered grids, at rest"),
+    Claim(id="own-speed-carried-step", source="RR98 Sec. III", at_most=200, because=ASKED,
+          value=one("growth", "1e9*step_s/points", "20000 <= points <= 21000 and threads == 1",
+                    err="1e9*step_s_err/points", method=CARRIED),
+          statement=f"a step of {POINTS} takes at most 200 ns a point at 20 000 points, flips and geometry "
+                    "included [ns]"),
+    two("carried", CARRIED, 1.6, ASKED, POINTS),
+    Claim(id="own-speed-carried-memory", source="RR98 Sec. III", at_most=1, because=ASKED,
+          value=one("memory", "resident/1e9", "points >= 1e6", err="0", method=CARRIED),
+          statement=f"a million {POINTS} need less than 1 GB: resident size of their process in a step [GB]"),
     Claim(id="own-speed-fixed-points", source="RR98 Sec. III", at_most=2,
           value=CHEAPEST/seconds(GRID, K), because="a factor of 2 was asked for before anything was measured",
           statement="fixed points are no dearer than a grid: CPU seconds, setting up included, to the "
@@ -71,20 +108,16 @@ ERRORS = (
           statement="in some cases particles need many fewer degrees of freedom than equally accurate "
                     "grids: particles of the printed scheme over points of a grid with the same error, "
                     "least ratio over all scenes"),
-    Claim(id="own-speed-growth-spam", source="KHP95 Sec. II", printed="N ln N", at_most=N_LN_N,
-          value=growth(LUCY),
-          statement="a step takes a time no worse than N ln N: exponent of its CPU seconds over a thousand "
-                    "to a million smooth particles, lists included",
-          because="N ln N over three decades has the exponent 1 + log10(2)/3 = 1.100"),
-    Claim(id="own-speed-growth-fixed", source="RR98 Sec. III", at_most=N_LN_N, value=growth(LATTICE),
-          statement="a step over stored edges takes a time no worse than N ln N: exponent of its CPU "
-                    "seconds over a thousand to a million fixed points",
-          because="the same limit as for smooth particles"),
-    Claim(id="own-speed-threads-spam", source="KHP95 Sec. I", printed="straightforward", at_least=1.7,
-          value=last("growth_laws", "value", "most >= 1e5", by="most", method=LUCY, what="two threads"),
-          statement="smooth particles are easily computed in parallel: time that passes with one thread "
-                    "over that with two, at the largest number of particles",
-          because="85 % of what two cores can give"),
+    *(Claim(id=f"own-speed-growth-{name}", source=source, printed=printed, at_most=N_LN_N,
+            value=growth(method),
+            because="N ln N over three decades has the exponent 1 + log10(2)/3 = 1.100",
+            statement=f"a step{of} takes a time no worse than N ln N: exponent of its CPU seconds over a "
+                      f"thousand to a million {who}")
+      for name, method, source, printed, of, who in (
+          ("spam", LUCY, "KHP95 Sec. II", "N ln N", "", "smooth particles, lists included"),
+          ("fixed", LATTICE, "RR98 Sec. III", "", " over stored edges", "fixed points"),
+          ("carried", CARRIED, "RR98 Sec. III", "", " with flips", POINTS))),
+    two("spam", LUCY, 1.7, "85 % of what two cores can give", "smooth particles", printed="straightforward"),
     #: RR98's r0, the rms width of Lucy's weight, is 1.27, 0.85, 0.51 spacings for h = 3, 2, 1.2
     *(Claim(id=f"rr98-speed-points-{name}", source="RR98 Sec. IV", printed=printed, at_least=1,
             value=points(method)/points(GRID), because="as many",
