@@ -29,7 +29,6 @@ FAMILIES = {
     "fixed-lattice": ("#0072B2", "o"),
     "fixed-jittered": ("#56B4E9", "^"),
     "spam": ("#D55E00", "s"),
-    "moving-delaunay": ("#CC79A7", "v"),
     "moving": ("#009E73", "D"),
 }
 #: how the markers of a family's members are filled
