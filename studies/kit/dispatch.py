@@ -38,11 +38,11 @@ class Bar:
     """Progress over the estimated cost of the cases, from the fraction done of each."""
 
     def __init__(self, cases: Sequence[Case], name: str):
-        self.cases = cases
+        self.cases, self.costs = cases, [case.cost for case in cases]    # once: many cases, many drawings
         self.fractions = SPAWN.RawArray("d", len(cases))        # worker processes write into it
         seconds = 0.5 if sys.stderr.isatty() else 60.0
         self.line = tqdm(
-            total=sum(case.cost for case in cases), desc=name, disable=not cases, bar_format=FORMAT,
+            total=sum(self.costs), desc=name, disable=not cases, bar_format=FORMAT,
             smoothing=0, dynamic_ncols=True, mininterval=seconds, maxinterval=seconds, miniters=0)
 
     def tell(self, number: int, fraction: float) -> None:
@@ -52,9 +52,8 @@ class Bar:
 
     def show(self) -> None:
         """Draw, if it is time to."""
-        pairs = list(zip(self.cases, self.fractions))
-        labels = [case.label for case, fraction in pairs if 0 < fraction < 1]
-        done = sum(case.cost*fraction for case, fraction in pairs if fraction > BEGUN)
+        labels = [case.label for case, fraction in zip(self.cases, self.fractions) if 0 < fraction < 1]
+        done = sum(cost*fraction for cost, fraction in zip(self.costs, self.fractions) if fraction > BEGUN)
         self.line.set_postfix_str("; ".join(labels), refresh=False)
         self.line.update(done - self.line.n)
 
