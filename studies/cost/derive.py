@@ -6,9 +6,9 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from studies.cost.tables import GRID, LUCY, POINTS, RUN, SERIES, TERM, with_err
-from studies.kit.fits import power_law
-from studies.kit.stats import Measured, seed_means
+from studies.cost.tables import GRID, LUCY, POINTS, RUN, SERIES, TERM
+from studies.kit.fits import crossing, power_law
+from studies.kit.stats import Measured, seed_means, with_errors
 from studies.kit.table import Tables, groups
 
 #: main quantity of each scene
@@ -96,19 +96,6 @@ def reached(group: pd.DataFrame, level: float) -> Row:
     return {"reached": "yes", "cpu_s": seconds, "low": low, "high": high, "points": points, "error": level}
 
 
-def crossing(pair: pd.DataFrame, column: str, level: float) -> tuple[float, float]:
-    """Cost at a level between the errors of two rows, and the half width of the interval of its logarithm.
-
-    ln cost = (1 - s) ln cost_0 + s ln cost_1, s = ln(error_0/level)/ln(error_0/error_1); all have errors.
-    """
-    (first, last), (low, high) = np.log(pair.error), np.log(pair[column])
-    s = (first - np.log(level))/(first - last)
-    slope = (high - low)/(first - last)
-    err = np.hypot(pair[f"{column}_err"]/pair[column], slope*pair.error_err/pair.error)
-    half = np.linalg.norm([1 - s, s]*err)
-    return float(np.exp(low + s*(high - low))), float(half)
-
-
 def rivals(points: pd.DataFrame) -> Iterator[Row]:
     """Printed particles over the grid of each scene; none that are better than all grids."""
     for scene, quantity in FIELD.items():
@@ -120,7 +107,7 @@ def rivals(points: pd.DataFrame) -> Iterator[Row]:
             number = over_rival(row, grids, "points")
             seconds = over_rival(row, grids, "cpu_s")
             key = {"scene": scene, "quantity": quantity, "rival": GRID, "error": row.error}
-            yield key | with_err(points=number, seconds=seconds)
+            yield key | with_errors(points=number, seconds=seconds)
 
 
 def over_rival(best: pd.Series, grids: pd.DataFrame, column: str) -> Measured:
@@ -152,7 +139,7 @@ def growth_laws(growth: pd.DataFrame) -> Iterator[Row]:
 def growth_law(method: str, what: str, group: pd.DataFrame, law: Measured) -> Row:
     """A row."""
     sizes = {"least": group.points.min(), "most": group.points.max()}
-    return {"method": method, "what": what} | sizes | with_err(value=law)
+    return {"method": method, "what": what} | sizes | with_errors(value=law)
 
 
 def terms(tables: Tables) -> dict[str, Rows]:
@@ -167,7 +154,7 @@ def terms(tables: Tables) -> dict[str, Rows]:
 
 def saved(row: dict) -> Row:
     """Ratios, and whether what is changed matters; a run that diverges does, and has taken no time."""
-    ratios = with_err(step_ratio=ratio(row, "step_s"), time_ratio=ratio(row, "time_s"))
+    ratios = with_errors(step_ratio=ratio(row, "step_s"), time_ratio=ratio(row, "time_s"))
     return ratios | {name: row[name] for name in KEPT} | {
         "bytes_ratio": row["bytes"]/row["bytes_whole"],
         "needed": "no" if row["changed"] <= MATTERS else "yes",

@@ -27,9 +27,8 @@ from studies.cost.contestants import ExactFlow, carried, on_mac, points
 from studies.cost.problem import Problem, of_method, rms
 from studies.cost.rolls import HeatedLayer, in_time
 from studies.cost.seconds import SHORT, array_bytes, per_step, stepped
-from studies.cost.tables import with_err
 from studies.kit.case import Case, Outcome, Report
-from studies.kit.stats import Measured
+from studies.kit.stats import Measured, with_errors
 
 OF_LIMIT = 0.9
 K_BOLTZMANN = 1e-12     # noise of 1e-6: a flow of 0.07 does not see it
@@ -203,7 +202,7 @@ class LeavingOut(Case):
             step = per_step(partial(problem.advance, problem.start, dt), self.short)*(1/n)
         return {"scene": self.base.scene, "base": self.base.name, "quantity": self.base.quantity,
                 "left_out": left_out, "points": n, "bytes": array_bytes(problem.held())/n,
-                **with_err(step_s=step, time_s=step*(1/(dt*made.unit))), "error": rms(residual),
+                **with_errors(step_s=step, time_s=step*(1/(dt*made.unit))), "error": rms(residual),
                 "error_err": problem.known, "changed": made.change(residual, whole)}
 
 

@@ -3,7 +3,6 @@
 CPU seconds of one thread; errors relative; `_err`: half width of a 95 % interval. resolution: points to the
 wavelength (taylor-green, sound) or rows to the height.
 """
-from studies.kit.stats import Measured
 from studies.kit.table import Table
 
 GRID = "grid"
@@ -69,11 +68,3 @@ TERMS = (
              means=A_STEP | {"needed": ("yes where it changes more than 1 %", "")},
              about="The same over the whole of the base."),
 )
-
-
-def with_err(**values: Measured) -> dict[str, float]:
-    """Columns of measured values, and of their errors."""
-    row: dict[str, float] = {}
-    for name, (value, err) in values.items():
-        row |= {name: value, f"{name}_err": err}
-    return row
