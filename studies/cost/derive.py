@@ -1,4 +1,4 @@
-"""What follows from the runs: error against cost, what a level of error costs, what leaving out saves."""
+"""What follows from the runs: error against cost, what a level of error costs, how steps grow."""
 from collections.abc import Iterator
 from itertools import product
 from typing import Any
@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from studies.cost.tables import GRID, LUCY, POINTS, RUN, SERIES, TERM
+from studies.cost.tables import GRID, LUCY, POINTS, RUN, SERIES
 from studies.kit.fits import crossing, power_law
 from studies.kit.stats import Measured, seed_means, with_errors
 from studies.kit.table import Tables, groups
@@ -21,12 +21,9 @@ FIELD = {
 }
 LEVELS = (0.1, 0.03, 0.01, 0.001)
 LEAST = 3           # sizes of an exponent
-NO_NUMBER = Measured(np.nan, np.nan)
-MATTERS = 0.01      # of the answer: the error at which methods are compared
 A_RUN, A_SERIES = RUN.split(), SERIES.split()
 RUNG = ["scene", "method", "resolution"]
 MEANS = ("error", "cpu_s", "setup_s", "points")
-KEPT = [*TERM.split(), "quantity", "step_s", "step_s_err", "bytes", "error", "changed"]
 Row = dict[Any, Any]
 Rows = list[Row]
 NOTHING = pd.DataFrame()
@@ -140,29 +137,3 @@ def growth_law(method: str, what: str, group: pd.DataFrame, law: Measured) -> Ro
     """A row."""
     sizes = {"least": group.points.min(), "most": group.points.max()}
     return {"method": method, "what": what} | sizes | with_errors(value=law)
-
-
-def terms(tables: Tables) -> dict[str, Rows]:
-    """Ratios to the whole of each base; a base whose whole is not there has none."""
-    if "measured" not in tables:
-        return {}
-    rows = tables["measured"]
-    wholes = rows.query("left_out == 'nothing'")
-    both = rows.merge(wholes, on=["scene", "base"], suffixes=("", "_whole"))
-    return {"scenes": [saved(row) for row in both.to_dict("records")]}
-
-
-def saved(row: dict) -> Row:
-    """Ratios, and whether what is changed matters; a run that diverges does, and has taken no time."""
-    ratios = with_errors(step_ratio=ratio(row, "step_s"), time_ratio=ratio(row, "time_s"))
-    return ratios | {name: row[name] for name in KEPT} | {
-        "bytes_ratio": row["bytes"]/row["bytes_whole"],
-        "needed": "no" if row["changed"] <= MATTERS else "yes",
-    }
-
-
-def ratio(row: dict, column: str) -> Measured:
-    """Of times; none where they scatter as much as they last, on a busy machine."""
-    part = Measured(row[column], row[column + "_err"])
-    whole = Measured(row[column + "_whole"], row[column + "_err_whole"])
-    return part/whole if abs(whole.value) > whole.err else NO_NUMBER
