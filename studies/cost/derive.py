@@ -6,9 +6,9 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from studies.cost.tables import GRID, LUCY, POINTS, RUN, SERIES
+from studies.cost.tables import GRID, LUCY, POINTS, RUN, SERIES, with_err
 from studies.kit.fits import crossing, power_law
-from studies.kit.stats import Measured, seed_means, with_errors
+from studies.kit.stats import Measured, seed_means
 from studies.kit.table import Tables, groups
 
 #: main quantity of each scene
@@ -104,7 +104,7 @@ def rivals(points: pd.DataFrame) -> Iterator[Row]:
             number = over_rival(row, grids, "points")
             seconds = over_rival(row, grids, "cpu_s")
             key = {"scene": scene, "quantity": quantity, "rival": GRID, "error": row.error}
-            yield key | with_errors(points=number, seconds=seconds)
+            yield key | with_err(points=number, seconds=seconds)
 
 
 def over_rival(best: pd.Series, grids: pd.DataFrame, column: str) -> Measured:
@@ -136,4 +136,4 @@ def growth_laws(growth: pd.DataFrame) -> Iterator[Row]:
 def growth_law(method: str, what: str, group: pd.DataFrame, law: Measured) -> Row:
     """A row."""
     sizes = {"least": group.points.min(), "most": group.points.max()}
-    return {"method": method, "what": what} | sizes | with_errors(value=law)
+    return {"method": method, "what": what} | sizes | with_err(value=law)

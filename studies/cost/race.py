@@ -17,8 +17,9 @@ from studies.build.grid import started
 from studies.cost.contestants import ExactFlow, decay
 from studies.cost.problem import Problem, Result, Rung, best, climb, relative, rms
 from studies.cost.seconds import SHORT, Laps, of_calls, per_step
+from studies.cost.tables import with_err
 from studies.kit.case import Case, Outcome, Report
-from studies.kit.stats import Measured, with_errors
+from studies.kit.stats import Measured
 
 SAMPLES = 5         # of the seconds of py-pde, those of as many equal parts of the run
 TRIES = 1.4         # of what an entry says that a case takes: what trying longer steps does to it
@@ -101,7 +102,7 @@ class Race(Case):
         seconds = self.a_step(problem, dt, result.state)*steps
         set_up = of_calls(lambda: self.made().held())
         return {**self.columns, "points": problem.points, "of_limit": fraction, "dt": dt, "steps": steps,
-                **with_errors(run_s=seconds, setup_s=set_up)}
+                **with_err(run_s=seconds, setup_s=set_up)}
 
     def a_step(self, problem: Problem, dt: float, end: Any) -> Measured:
         """Seconds; of particles in the disorder of the end, when their lists are made more often."""
@@ -174,7 +175,7 @@ class SolverRace(Race):
         v, exact = end.state[[VX, VY]].reshape(2, -1).T, gas.exact()
         one = np.ones(len(v))
         result = Result({"velocity": relative(one, v - exact, exact), "decay": decay(gas.scene, one, v)})
-        seconds = with_errors(run_s=laps.total(SAMPLES), setup_s=of_calls(lambda: self.made().begun()))
+        seconds = with_err(run_s=laps.total(SAMPLES), setup_s=of_calls(lambda: self.made().begun()))
         row = {**self.columns, "points": len(v), "of_limit": 1.0, "dt": np.nan, "steps": end.steps, **seconds}
         errors = self.errors(result, self.entry.flow.known)
         return Outcome({"errors": list(errors), "runs": [row]})

@@ -17,8 +17,9 @@ from particles.integrators import RK4
 from particles.run import Plan, run
 from particles.threads import Threads
 from studies.build.scenes import Tile
+from studies.cost.tables import with_err
 from studies.kit.case import Case, Outcome, Report
-from studies.kit.stats import Measured, with_errors
+from studies.kit.stats import Measured
 from studies.kit.timing import REPEATS, SPREAD_TO_ERR
 
 Clock = Callable[[], float]
@@ -171,7 +172,7 @@ class StepTime(Case):
     def row(self, many: Flock | Web, seconds: Measured, threads: int, clock: str) -> dict[str, Any]:
         """Of the table."""
         return {"method": self.name, "points": many.start.shape[1], "threads": threads, "clock": clock,
-                **with_errors(step_s=seconds)}
+                **with_err(step_s=seconds)}
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -3,6 +3,7 @@
 CPU seconds of one thread; errors relative; `_err`: half width of a 95 % interval. resolution: points to the
 wavelength (taylor-green, sound) or rows to the height.
 """
+from studies.kit.stats import Measured
 from studies.kit.table import Table
 
 GRID = "grid"
@@ -54,3 +55,11 @@ TABLES = (
              means={"what": ("exponent: d ln(seconds of a step)/d ln(particles); two threads: how much "
                              "faster than one", "")}),
 )
+
+
+def with_err(**values: Measured) -> dict[str, float]:
+    """Columns of measured values, and of their errors."""
+    row: dict[str, float] = {}
+    for name, (value, err) in values.items():
+        row |= {name: value, f"{name}_err": err}
+    return row
