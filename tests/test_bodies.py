@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from crowd import prepare, random_fields
+from scenes import between_circles, turning
 
 from continuum.fluid import ConstEta, ConstNu, IdealGas, PowerLaw, VanDerWaals
 from particles.integral.bodies import held, together
@@ -16,7 +17,7 @@ from particles.integral.stream import Stream, separated
 from particles.integral.triangulation import delaunay
 from particles.threads import Threads
 from particles.weights import Lucy
-from studies.conservation.discs import between_circles, in_disc, turning, with_surface
+from studies.conservation.discs import in_disc, with_surface
 
 LAW = ConstEta(0.3, 0.4)
 LAWS = pytest.mark.parametrize("law", [LAW, ConstNu(0.3, 0.4)], ids=["const-eta", "const-nu"])

@@ -11,11 +11,11 @@ from studies.cost.derive import growth_laws
 from studies.cost.problem import HALVINGS, STRETCH, STRETCHES, WORTH, Problem, Result, best, climb, rms
 from studies.cost.race import Race, SolverRace
 from studies.cost.rolls import END, LATE, OFTEN, SETTLED, Followed, HeatedLayer
-from studies.cost.seconds import Flock, TwoThreads, array_bytes, median, per_step
+from studies.cost.seconds import Flock, TwoThreads, median, per_step
 from studies.cost.tables import GRID, LATTICE, MAC, NEAREST, PYPDE, WIDE
 from studies.kit.timing import SPREAD_TO_ERR
 
-COLUMNS = {table.name: table.columns for table in tables.ERRORS_OF}
+COLUMNS = {table.name: table.columns for table in tables.TABLES}
 
 
 def toy(order: int, space: float = 1e-3, limit: float = 1.0, chaotic: bool = False) -> Problem:
@@ -116,17 +116,6 @@ def test_seconds_of_a_step_leave_out_what_every_run_pays_once():
 
 def test_a_time_is_the_median_of_its_repeats_and_its_error_half_of_their_quartiles():
     assert median([1, 2, 9, 4, 5, 8, 6]) == (5, pytest.approx(SPREAD_TO_ERR*(7 - 3)/2))     # 1 2 4 5 6 8 9
-
-
-def test_bytes_count_every_buffer_once_and_nothing_that_only_sets_up():
-    class Sums:
-        pass
-    one = np.zeros(100)
-    sums = Sums()
-    sums.whole, sums.part, sums.again = one, one[10:20], [one]
-    sums.method, sums.more = np.zeros(7), {"a": (np.zeros(3),)}
-    assert array_bytes(sums) == 8*103
-    assert array_bytes(one[:1], one[50:]) == 800
 
 
 def test_one_and_two_threads_take_turns_and_give_what_the_speed_up_reads(monkeypatch):

@@ -4,6 +4,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from plain_moving_delaunay import Plain
+from scenes import between_circles, turning
 
 from continuum.domain import Domain
 from continuum.exact.vortex import solved, velocities
@@ -25,7 +26,6 @@ from studies.build.fixed import between_sides
 from studies.build.measure import heat_at_rest
 from studies.build.moving import CARRIAGES, NONE_HELD, Carriage
 from studies.build.setting import shifted
-from studies.conservation.discs import between_circles, turning
 
 TORUS, PLATES, BOX = (False, False), (False, True), (True, True)
 SIZE = (12.0, 10.0)

@@ -52,11 +52,6 @@ class Vortex(NamedTuple):
         return np.sqrt(1 + self.speed**2/4*np.cos(2*self.k*x).sum(axis=1))
 
 
-def incompressible(place: np.ndarray) -> np.ndarray:
-    """Velocities (p, 2) at the end over the initial speed, at places (p, 2) in wavelengths."""
-    return Vortex(1/SOUND, 1).velocity(place)*np.exp(-DECAYS)
-
-
 class Solved(NamedTuple):
     """Fourier amplitudes (n, n, 2) of the velocity at the end over the initial speed.
 

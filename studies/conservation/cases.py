@@ -33,7 +33,7 @@ from studies.conservation.drift import (
     vortex_flow,
 )
 from studies.conservation.motions import ALONG, STILL, BracketForce, Identity, MovingSound, Pattern, Signs
-from studies.conservation.slow_flows import VARIANTS, CylinderDrag, SlidingShear, TurningCylinder, TurningWave
+from studies.conservation.slow_flows import VARIANTS, CylinderDrag, SlidingShear, TurningWave
 from studies.conservation.sums import CUBE, EVERYTHING, LINE, SQUARE, DihDrift, Unsymmetric
 from studies.kit.case import Case
 
@@ -148,11 +148,10 @@ def drags(fraction: float, sizes: dict[str, tuple[int, ...]]) -> Iterator[Case]:
         yield from (CylinderDrag(variant=VARIANTS[name], fraction=fraction, rows=n) for n in rows)
 
 
-def slow_flows(waves: tuple[int, ...], torques: tuple[int, ...]) -> Iterator[Case]:
-    """Sliding sides and a cylinder that turns."""
+def sliding(waves: tuple[int, ...]) -> Iterator[Case]:
+    """Flows between sliding sides."""
     yield from (TurningWave(rows=rows) for rows in waves)
     yield from (SlidingShear(rows=rows) for rows in waves[:3])
-    yield from (TurningCylinder(rows=rows) for rows in torques)
 
 
 def quick() -> Iterator[Case]:
@@ -161,7 +160,7 @@ def quick() -> Iterator[Case]:
     yield from (*layers(*some, steps=300), *plates(*some, steps=300))
     yield from (*dimensions(300, seeds=2), *motions(40, WEIGHT_KINDS[:1]), *once(), *speeds((8,)))
     yield from (replace(case, steps=case.steps//8) for case in PLACES)
-    yield from slow_flows((12, 16, 24), (16, 20))
+    yield from sliding((12, 16, 24))
     yield from drags(0.1, {"surface": (12, 16), "frozen": (12, 16)})
 
 
@@ -170,7 +169,7 @@ def paper() -> Iterator[Case]:
     yield from (*layers(KINDS, WEIGHT_KINDS, 10_000), *plates(KINDS, WEIGHT_KINDS, 10_000))
     yield from (*dimensions(10_000, seeds=24), *motions(10_000, WEIGHT_KINDS), *once(), *moving())
     yield from (*speeds((8, 16, 24, 32)), *PLACES)
-    yield from slow_flows((16, 24, 32, 48, 64), tuple(range(24, 68, 4)))
+    yield from sliding((16, 24, 32, 48, 64))
     for fraction, every in ((0.1, 1), (0.3, 4)):
         yield from drags(fraction, {"surface": SMOOTH, "surface-unfiltered": (24, 32, 48),
                                     "frozen": SCATTERED[::every], "frozen-grown": SCATTERED[::every]})

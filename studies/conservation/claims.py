@@ -219,9 +219,5 @@ BODIES = (
           statement="without a filter of the density slow flow around a body creeps on: change of the drag "
                     "in the last tenth of the time over that with the filter, points on the surface, 32 "
                     "rows"),
-    Claim(id="own-bodies-torque", source="RR98 Sec. IV", printed="moving boundaries", at_most=0.01,
-          because=PERCENT, value=abs(one("torque", "turned", rows=48)),
-          statement="held points can simulate moving boundaries: |error| of the torque on a cylinder that "
-                    "turns in one at rest, from all its edges, those inside too, 17 spacings across"),
 )
 CLAIMS = (*FIXED, *MOVING, *BODIES)

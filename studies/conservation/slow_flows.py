@@ -1,4 +1,4 @@
-"""Slow flows around held points and between sliding sides: drag, torque, shear    [RR98 Secs III, IV]"""
+"""Slow flows around held points and between sliding sides: drag, shear    [RR98 Secs III, IV]"""
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -8,7 +8,7 @@ import numpy as np
 
 from continuum.fluid import ConstEta, IdealGas
 from continuum.published import published
-from particles.integral.bodies import held, together
+from particles.integral.bodies import held
 from particles.integral.edge_makers import renormalised
 from particles.integral.edges import Edges
 from particles.integral.points import Points, lattice
@@ -19,7 +19,7 @@ from particles.limits import limit_of
 from particles.run import Plan, Run, run
 from particles.threads import Threads
 from particles.weights import Lucy
-from studies.conservation.discs import between_circles, in_disc, turning, with_surface
+from studies.conservation.discs import in_disc, with_surface
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import Measured, with_errors
 
@@ -27,7 +27,6 @@ ETA, SPEED = 2.0, 1e-3      # sound and friction limit the step alike; Re and Ma
 PRESSURE = 0.05             # chi nu/(a^2 c^2) of the filter of the density
 TIMES = 15.0                # until the end, in those of the slowest motion
 OF_LIMIT = 0.9              # of the step to its stability limit: a steady flow knows no error of the step
-INNER, OUTER = 0.18, 0.42   # radii over the size of the box
 BOXES = 2.0                 # lengths of the box that images slide
 DIFFERENCE = 0.1            # of the speeds of neighbouring boxes
 SOUND = np.sqrt(2.0)        # its speed at rho = T = 1
@@ -118,46 +117,6 @@ class CylinderDrag(Case):
         push = published(f"cylinders-drag-{self.fraction:g}").value*ETA*SPEED/self.rows**2
         return Stream(x=points.x, edges=edges, eos=IdealGas(), law=ConstEta(ETA, ETA),
                       held=held(body, T=1.0), push=(push, 0.0), chi=self.variant.filtered/ETA)
-
-
-@dataclass(frozen=True, kw_only=True)
-class TurningCylinder(Case):
-    """A cylinder that turns inside of one at rest: points on both circles, Delaunay edges.
-
-    Between them velocity over radius is A + B/r^2, the torque is 4 pi eta B    [Taylor-Couette flow, exact]
-    """
-    rows: int
-
-    @property
-    def cost(self) -> float:
-        return 4e-7*self.rows**4
-
-    def exact(self, x: np.ndarray) -> np.ndarray:
-        """Velocity (n, 2) at x (n, 2)."""
-        inner, outer = INNER*self.rows, OUTER*self.rows
-        r = np.maximum(np.hypot(*x.T), inner)
-        between = (outer**2/r**2 - 1)/(outer**2/inner**2 - 1)
-        turns = SPEED/inner*np.clip(between, 0, 1)
-        return turns[:, None]*np.stack([-x[:, 1], x[:, 0]], axis=1)
-
-    def run(self, report: Report, folder: Path) -> Outcome:
-        inner, outer = INNER*self.rows, OUTER*self.rows
-        points, turned, fixed = between_circles((self.rows, self.rows), inner, outer)
-        bodies = together(turning(points, turned, SPEED/inner, 1.0), turning(points, fixed, 0.0, 1.0))
-        method = Stream(x=points.x, edges=delaunay(points), eos=IdealGas(), law=ConstEta(ETA, ETA),
-                        held=bodies, chi=PRESSURE/ETA)
-        first = method.state(1.0, self.exact(method.x), 1.0)
-        dt = OF_LIMIT*limit_of(method, first)
-        time = TIMES*(outer - inner)**2/(np.pi**2*ETA)
-        done = run(method, first, Plan(dt=dt, steps=round(time/dt)), report)
-        whole = 4*np.pi*ETA*SPEED*inner/(1 - (inner/outer)**2)
-        sums = method.start(len(method.x), Threads(1))
-        sums.force(done.state)
-        x, y = method.x[method.held.which].T
-        Fx, Fy, _ = sums.received.T
-        on_turned, on_fixed = np.bincount(method.held.body, x*Fy - y*Fx)/whole
-        return Outcome({"torque": [{"rows": self.rows, "radius": inner, "turned": -on_turned - 1,
-                                    "fixed": on_fixed - 1, **spent(done)}]})
 
 
 # --- sliding sides ------------------------------------------------------------------------------

@@ -58,11 +58,7 @@ ALL = (
     Table.of("shear", "rows", "stress heating profile mass_drift momentum_drift steps", means=RINGS,
              about="Homogeneous shear between sliding sides."),
     Table.of("wave", "rows", "error steps", about="A wave that the shear turns.",
-             means=RINGS | {"error": ("relative rms error of the velocity without divergence", "")}),
-    Table.of("torque", "rows", "radius turned fixed steps",
-             about="A cylinder that turns inside of one at rest.",
-             means=RINGS | {"fixed": ("error of the torque on the cylinder at rest over the exact one", ""),
-                            "radius": ("radius of the inner cylinder", "a")}))
+             means=RINGS | {"error": ("relative rms error of the velocity without divergence", "")}))
 
 LONG = (16, 24, 32)     # wavelengths from which sound is extrapolated
 LEAST = 3               # sizes of a limit

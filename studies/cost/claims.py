@@ -1,4 +1,4 @@
-"""What errors cost and what terms cost, judged    [KHP95 Secs I, II, VII; RR98 Sec. III]"""
+"""What errors cost, judged    [KHP95 Secs I, II, VII; RR98 Sec. III]"""
 import numpy as np
 
 from studies.cost.tables import CARRIED, GRID, JITTERED, LATTICE, LUCY, MAC, MOVING, NEAREST, PYPDE, WIDE
@@ -68,7 +68,7 @@ def two(name: str, method: str, at_least: float, because: str, words: str, print
                            "that with two, at the largest number of particles")
 
 
-ERRORS = (
+CLAIMS = (
     carried("k", K, seconds(GRID, K), 1, "the seconds of the compressible grid"),
     carried("5000", LOWER_K, seconds(GRID, LOWER_K), 1, "the seconds of the compressible grid"),
     carried("velocity", FLOW, seconds(GRID, FLOW), 4, "four times the seconds of the compressible grid"),
@@ -127,28 +127,4 @@ ERRORS = (
       for name, method, h, printed in (
           ("wide", WIDE, "h = 3 a, r0 = 1.27 a above", "more particles than points in a grid"),
           ("nearest", NEAREST, "h = 1.2 a, r0 = 0.51 a below", ""))),
-)
-
-
-def saved(ratio: str, base: str, left_out: str) -> Value:
-    """What is left without a term over the whole; no number where times scatter as much as they last."""
-    return one("scenes", ratio, f"{ratio} > 0", scene="taylor-green", base=base, left_out=left_out)
-
-
-TERMS = (
-    Claim(id="own-scenes-motion", source="RR98 Sec. III", at_most=0.1, because="an order of magnitude",
-          value=saved("time_ratio", MOVING, "motion"),
-          statement="points that stay are ten times cheaper: CPU seconds of a point and unit of time of a "
-                    "Taylor-Green vortex on a lattice over those on moving points"),
-    Claim(id="own-scenes-compressibility", source="RR98 Sec. III", at_most=0.1,
-          value=saved("time_ratio", LATTICE, "compressibility"),
-          statement="a slow flow without sound is ten times cheaper: CPU seconds of a cell and unit of "
-                    "time of a Taylor-Green vortex with mac over those of a point of the gas, Mach "
-                    "0.05",
-          because="steps are longer by one over the Mach number, and cost more"),
-    Claim(id="own-scenes-mending", source="RR98 Eq. 51", at_most=0.01,
-          value=one("measured", "changed", "changed >= 0", err="error_err", scene="convection", base=LATTICE,
-                    left_out="mended heating"),
-          because="1 % of the answer is the error at which methods are compared",
-          statement="the work of forces along edges is heating enough: what it changes of K, 16 rows"),
 )

@@ -1,4 +1,4 @@
-"""What follows from the runs: error against cost, what a level of error costs, what leaving out saves."""
+"""What follows from the runs: error against cost, what a level of error costs, how steps grow."""
 from collections.abc import Iterator
 from itertools import product
 from typing import Any
@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from studies.cost.tables import GRID, LUCY, POINTS, RUN, SERIES, TERM, with_err
-from studies.kit.fits import power_law
+from studies.cost.tables import GRID, LUCY, POINTS, RUN, SERIES, with_err
+from studies.kit.fits import crossing, power_law
 from studies.kit.stats import Measured, seed_means
 from studies.kit.table import Tables, groups
 
@@ -21,12 +21,9 @@ FIELD = {
 }
 LEVELS = (0.1, 0.03, 0.01, 0.001)
 LEAST = 3           # sizes of an exponent
-NO_NUMBER = Measured(np.nan, np.nan)
-MATTERS = 0.01      # of the answer: the error at which methods are compared
 A_RUN, A_SERIES = RUN.split(), SERIES.split()
 RUNG = ["scene", "method", "resolution"]
 MEANS = ("error", "cpu_s", "setup_s", "points")
-KEPT = [*TERM.split(), "quantity", "step_s", "step_s_err", "bytes", "error", "changed"]
 Row = dict[Any, Any]
 Rows = list[Row]
 NOTHING = pd.DataFrame()
@@ -96,19 +93,6 @@ def reached(group: pd.DataFrame, level: float) -> Row:
     return {"reached": "yes", "cpu_s": seconds, "low": low, "high": high, "points": points, "error": level}
 
 
-def crossing(pair: pd.DataFrame, column: str, level: float) -> tuple[float, float]:
-    """Cost at a level between the errors of two rows, and the half width of the interval of its logarithm.
-
-    ln cost = (1 - s) ln cost_0 + s ln cost_1, s = ln(error_0/level)/ln(error_0/error_1); all have errors.
-    """
-    (first, last), (low, high) = np.log(pair.error), np.log(pair[column])
-    s = (first - np.log(level))/(first - last)
-    slope = (high - low)/(first - last)
-    err = np.hypot(pair[f"{column}_err"]/pair[column], slope*pair.error_err/pair.error)
-    half = np.linalg.norm([1 - s, s]*err)
-    return float(np.exp(low + s*(high - low))), float(half)
-
-
 def rivals(points: pd.DataFrame) -> Iterator[Row]:
     """Printed particles over the grid of each scene; none that are better than all grids."""
     for scene, quantity in FIELD.items():
@@ -153,29 +137,3 @@ def growth_law(method: str, what: str, group: pd.DataFrame, law: Measured) -> Ro
     """A row."""
     sizes = {"least": group.points.min(), "most": group.points.max()}
     return {"method": method, "what": what} | sizes | with_err(value=law)
-
-
-def terms(tables: Tables) -> dict[str, Rows]:
-    """Ratios to the whole of each base; a base whose whole is not there has none."""
-    if "measured" not in tables:
-        return {}
-    rows = tables["measured"]
-    wholes = rows.query("left_out == 'nothing'")
-    both = rows.merge(wholes, on=["scene", "base"], suffixes=("", "_whole"))
-    return {"scenes": [saved(row) for row in both.to_dict("records")]}
-
-
-def saved(row: dict) -> Row:
-    """Ratios, and whether what is changed matters; a run that diverges does, and has taken no time."""
-    ratios = with_err(step_ratio=ratio(row, "step_s"), time_ratio=ratio(row, "time_s"))
-    return ratios | {name: row[name] for name in KEPT} | {
-        "bytes_ratio": row["bytes"]/row["bytes_whole"],
-        "needed": "no" if row["changed"] <= MATTERS else "yes",
-    }
-
-
-def ratio(row: dict, column: str) -> Measured:
-    """Of times; none where they scatter as much as they last, on a busy machine."""
-    part = Measured(row[column], row[column + "_err"])
-    whole = Measured(row[column + "_whole"], row[column + "_err_whole"])
-    return part/whole if abs(whole.value) > whole.err else NO_NUMBER

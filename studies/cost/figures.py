@@ -1,4 +1,4 @@
-"""Error against CPU seconds, and what leaving a term out saves."""
+"""Error against CPU seconds."""
 from typing import Any
 
 import numpy as np
@@ -9,7 +9,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from studies.cost.derive import LEVELS
 from studies.cost.tables import METHODS
-from studies.kit.figure import COLOURS, LINES, Drawing, Drawings, figure
+from studies.kit.figure import LINES, Drawing, Drawings, figure
 
 #: scene, quantity, title of each panel
 PANELS = (
@@ -38,15 +38,6 @@ FILLS: tuple[dict[str, str], ...] = (
     {"fillstyle": "left", "markerfacecoloralt": "white"},
     {"fillstyle": "bottom", "markerfacecoloralt": "white"},
 )
-#: what leaving out saves: column, label, hatch
-KINDS = (
-    ("step_ratio", "CPU seconds of a point and step", ""),
-    ("time_ratio", "CPU seconds of a point and unit of time", "//"),
-    ("bytes_ratio", "bytes a point", ".."),
-)
-THICK = 0.26
-ABOVE = ("More than 1: the whole runs in the faster loops that only the ideal gas has, what is left\n"
-         "in those of all fluids (as the whole does one line below); or each step solves for the pressure")
 
 
 def work_precision(points: pd.DataFrame, needed: pd.DataFrame) -> Figure:
@@ -150,33 +141,4 @@ def legend(page: Figure, all_axes: np.ndarray) -> None:
     page.legend(lines, order, loc="outside lower center", ncols=2, handlelength=4)
 
 
-def scenes(rows: pd.DataFrame) -> Figure:
-    """What is left of seconds and bytes without a term, over the whole; the error that this makes."""
-    rows = rows.query("left_out != 'nothing'").sort_values(["scene", "base", "left_out"], ascending=False)
-    page, axes = figure(width=7.4, height=1.9 + 0.62*len(rows))
-    at = np.arange(len(rows))
-    for number, (column, label, hatch) in enumerate(KINDS):
-        look = {"color": COLOURS[number], "hatch": hatch, "edgecolor": "white", "capsize": 2}
-        heights, err = at + THICK*(1 - number), rows.get(f"{column}_err")
-        axes.barh(heights, rows[column], THICK, xerr=err, label=label, **look)
-    axes.axvline(1, color="black", linewidth=0.8)
-    axes.set_yticks(at, labels=[effect(row) for row in rows.itertuples()], fontsize=8)
-    axes.set(xscale="log", xlabel="what is left over what the whole takes; bars: 95 %")
-    written(axes.xaxis, (1, 2, 5))
-    page.suptitle(f"What does leaving out save, what error does it make? Motion costs most\n{ABOVE}",
-                  fontsize=9)
-    page.legend(loc="outside lower center", ncols=3)
-    return page
-
-
-def effect(row: Any) -> str:
-    """What is left out, and what that makes of the answer."""
-    percents = 100*row.changed
-    digits = ".0f" if percents > 10 else ".2g"
-    size = f"off by {percents:{digits}} %" if np.isfinite(percents) else "diverges"
-    needed = "needed" if row.needed == "yes" else "not needed"
-    return f"{row.scene}, {row.base}\nwithout {row.left_out}: {size}, {needed}"
-
-
-ERRORS = Drawings(Drawing("work_precision", ("points", "needed"), work_precision))
-TERMS = Drawings(Drawing("scenes", ("scenes",), scenes))
+FIGURES = Drawings(Drawing("work_precision", ("points", "needed"), work_precision))

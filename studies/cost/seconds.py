@@ -1,5 +1,5 @@
-"""Seconds of a step, bytes of arrays: how they are measured; how seconds grow with the number of points."""
-from collections.abc import Callable, Iterator, Sequence
+"""Seconds of a step: how they are measured; how seconds grow with the number of points."""
+from collections.abc import Callable, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from multiprocessing import get_context
@@ -86,31 +86,6 @@ class Laps:
     def total(self, count: int) -> Measured:
         """Of `count` of them."""
         return median(np.diff(self.at))*count
-
-
-def array_bytes(*things: Any) -> int:
-    """Bytes of all arrays that things hold, each buffer once; not those of a `method`, which only sets up."""
-    sizes = dict[int, int]()
-    for array in arrays(things, set()):
-        start, _ = array.__array_interface__["data"]
-        sizes[start] = array.nbytes
-    return sum(sizes.values())
-
-
-def arrays(thing: Any, seen: set[int]) -> Iterator[np.ndarray]:
-    """Arrays in a thing, in what it holds, and so on; of a view its whole buffer."""
-    if id(thing) in seen or isinstance(thing, type | str | int | float):
-        return
-    seen.add(id(thing))
-    if isinstance(thing, np.ndarray):
-        while isinstance(thing.base, np.ndarray):
-            thing = thing.base
-        yield thing
-        return
-    parts = list(thing) if isinstance(thing, tuple | list) else []
-    held = thing if isinstance(thing, dict) else getattr(thing, "__dict__", {})
-    for part in parts + [value for name, value in held.items() if name != "method"]:
-        yield from arrays(part, seen)
 
 
 # --- many points --------------------------------------------------------------------------------------------

@@ -22,14 +22,13 @@ METHODS = (GRID, MAC, PYPDE, NEAREST, LATTICE, WIDE, JITTERED, "fixed-jittered-d
 
 RUN = "scene method resolution seed"
 SERIES = "scene quantity method"
-TERM = "scene base left_out"
 COUNT = {"points": ("number of points or cells", ""),
          "resolution": ("points to the wavelength (taylor-green, sound) or rows to the height", "")}
 SECONDS = {"cpu_s": ("CPU seconds of all steps and of setting up", "s")}
 POINTS = Table.of(
     "points", f"{SERIES} resolution", "points seeds error error_err cpu_s cpu_s_err setup_s",
     means=COUNT | SECONDS, about="Error against cost, means over seeds.")
-ERRORS_OF = (
+TABLES = (
     Table.of("runs", RUN, "points of_limit dt steps run_s run_s_err setup_s setup_s_err", means=COUNT,
              about="The run at the method's own best step (py-pde's by formula)."),
     Table.of("errors", f"{RUN} quantity", "error error_err share", about="An error of that run.",
@@ -55,19 +54,6 @@ ERRORS_OF = (
     Table.of("growth_laws", "method what least", "most value value_err", about="How these seconds grow.",
              means={"what": ("exponent: d ln(seconds of a step)/d ln(particles); two threads: how much "
                              "faster than one", "")}),
-)
-A_STEP = {"step_s": ("CPU seconds of one point and step", "s"), "bytes": ("bytes of arrays a point", "B"),
-          "error": ("relative error of the quantity; none where the run diverged", ""),
-          "changed": ("what leaving out changes of the quantity at the same points, adds to its error on "
-                      "others, or makes of it on any grid", "")}
-TERMS = (
-    Table.of("measured", TERM,
-             "quantity points step_s step_s_err time_s time_s_err bytes error error_err changed",
-             means=COUNT | A_STEP, about="A method with or without something that a scene may need."),
-    Table.of("scenes", TERM, "quantity step_s step_s_err bytes step_ratio step_ratio_err time_ratio "
-             "time_ratio_err bytes_ratio error changed needed",
-             means=A_STEP | {"needed": ("yes where it changes more than 1 %", "")},
-             about="The same over the whole of the base."),
 )
 
 

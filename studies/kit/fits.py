@@ -100,6 +100,19 @@ def power_law(x: Numbers, y: Numbers, err: Numbers | None = None) -> Fit:
     return line(np.log(x), np.log(y), err=relative)
 
 
+def crossing(pair: pd.DataFrame, column: str, level: float) -> tuple[float, float]:
+    """Cost at a level between the errors of two rows, and the half width of the interval of its logarithm.
+
+    ln cost = (1 - s) ln cost_0 + s ln cost_1, s = ln(error_0/level)/ln(error_0/error_1); all have errors.
+    """
+    (first, last), (low, high) = np.log(pair.error), np.log(pair[column])
+    s = (first - np.log(level))/(first - last)
+    slope = (high - low)/(first - last)
+    err = np.hypot(pair[f"{column}_err"]/pair[column], slope*pair.error_err/pair.error)
+    half = np.linalg.norm([1 - s, s]*err)
+    return float(np.exp(low + s*(high - low))), float(half)
+
+
 def grid_limit(sizes: Numbers, values: Numbers) -> Measured:
     """Limit of infinitely fine grids, ``sizes`` in cells per length, from the three finest [Richardson].
 

@@ -1,32 +1,13 @@
 """Figures of the study, from its tables."""
-import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
 from studies.kit.figure import Drawing, Drawings, errorbar, figure, look
 
-WEIGHTS = {"Lucy": "Lucy", "Monaghan": "Monaghan", "WendlandC2": "Wendland C2"}
-CHANCE = 1 - np.exp(-np.pi/4)       # part of particles at random that have another within half a spacing
 #: by weight and step
 LAYERS = {("Lucy", 1.0): "Lucy", ("Monaghan", 1.0): "Monaghan", ("Lucy", 0.25): "Lucy, a quarter of the step"}
 STEPS = {"rk4": "Runge-Kutta 4, as printed", "leapfrog": "leapfrog",
          "whole numbers": "leapfrog in whole numbers"}
-
-
-def pairs(rows: pd.DataFrame) -> Figure:
-    """Over the range: the part of the particles that share a site."""
-    page, axes = figure(width=5.0, height=3.8)
-    for number, (weight, label) in enumerate(WEIGHTS.items()):
-        shared = rows[rows["weight"] == weight].groupby("h")["shared"]
-        spread = (shared.max() - shared.min())/2
-        errorbar(axes, list(spread.index), shared.mean(), spread, number=number, label=label,
-                 linestyle=look(number)["linestyle"])
-    axes.axhline(CHANCE, color="grey", linestyle=":", label="particles at random")
-    axes.set(xlabel="range $h$ / spacings", ylabel="part with another within half a spacing")
-    page.legend(loc="outside lower center", ncols=4)
-    page.suptitle("One particle a site, or pairs?\nideal gas left to rest, 256 particles; bars: all seeds",
-                  fontsize=10)
-    return page
 
 
 def freezing(rows: pd.DataFrame, limits: pd.DataFrame) -> Figure:
@@ -72,5 +53,5 @@ def reversal(rows: pd.DataFrame, twins: pd.DataFrame) -> Figure:
 
 
 FIGURES = Drawings(
-    Drawing("pairs", ("fates",), pairs), Drawing("freezing", ("freezing", "freezing_limits"), freezing),
+    Drawing("freezing", ("freezing", "freezing_limits"), freezing),
     Drawing("reversal", ("reversal", "twins"), reversal))

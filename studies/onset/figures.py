@@ -1,5 +1,5 @@
 """Figures of the study onset, from its tables alone."""
-from math import inf, sqrt
+from math import inf
 from typing import Any
 
 import numpy as np
@@ -8,73 +8,13 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from studies.build.names import ENERGY, ra_axis
-from studies.kit.figure import Drawing, Drawings, below, errorbar, figure, look
-from studies.onset.tables import means
+from studies.kit.figure import Drawing, Drawings, errorbar, look
 
 #: rows of the gas in KHP95's layer
 GAS = ("method == 'compressible' and eos == 'ideal' and transport == 'const-eta' and dT == 1 "
        "and sides == 'periodic'")
-#: series of growth rates: label -> rows
-GRIDS = {
-    r"gas, $\eta$ constant": GAS,
-    r"gas, $\nu$ constant": GAS.replace("const-eta", "const-nu"),
-    "van der Waals": GAS.replace("ideal", "vdw"),
-}
-#: schemes of particles that have a panel: variant -> title
-SCHEMES = {"printed": "particles as printed", "less-static-90": "particles, a tenth of the static pressure"}
-GAS_TIME = r"the same for the gas: over $\sqrt{2}$, half of" "\nits gradient is adiabatic"
-NARROW = (1550.0, 1860.0)
 BLACK: dict[str, Any] = {"color": "black", "marker": ""}
 ZERO = BLACK | {"linewidth": 0.6, "linestyle": "-"}
-HOLLOW = {"linestyle": "none", "markerfacecolor": "none"}
-
-
-def growth(rates: pd.DataFrame) -> Figure:
-    """sigma against Ra: weak rolls of grids and linear theory; stronger rolls of particles and of the gas."""
-    known = rates.query("method == 'linear'").sort_values("ra")
-    finite = rates.query("way == 'run'")
-    page, panels = figure(1, 1 + len(SCHEMES), width=4.6, height=5.6)
-    weak, *strong = panels
-    draw_weakest(weak, rates.query("way == 'operator'"), known)
-    for axes, (name, title) in zip(strong, SCHEMES.items()):
-        theory(axes, known)
-        draw_rolls(axes, finite.query("method != 'spam'"), first=0)
-        draw_rolls(axes, finite[finite.variant == name], first=1)
-        axes.set_title(title)
-        axes.sharey(strong[0])
-    for axes in panels:
-        axes.axhline(0, **ZERO)
-        axes.set(xlabel="Rayleigh number Ra", ylabel=r"growth rate $\sigma$  [1/free-fall time]")
-        below(axes)
-    page.suptitle("From which Ra on do rolls grow? Right: rolls of K = 0.0004; bars: 95 % over seeds",
-                  fontsize=10)
-    return page
-
-
-def theory(axes: Axes, known: pd.DataFrame) -> None:
-    """Boussinesq fluid of Pr = 2 in the gas's free-fall time: half of the gradient is adiabatic."""
-    axes.plot(known.ra, 1/sqrt(2)*known.sigma, **BLACK, linestyle="--", label=GAS_TIME)
-
-
-def draw_weakest(axes: Axes, rates: pd.DataFrame, known: pd.DataFrame) -> None:
-    """Rates of the finest grids."""
-    axes.plot(known.ra, known.sigma, **BLACK, linestyle="-", label="linear theory, Pr = 2")
-    theory(axes, known)
-    rates = rates[rates.ra.between(*NARROW)].sort_values("ra")
-    for number, (label, wanted) in enumerate(GRIDS.items()):
-        finest = rates.query(wanted).query("resolution == resolution.max()")
-        axes.plot(finest.ra, finest.sigma, **look(number) | HOLLOW, label=label)
-    axes.set(title="weakest disturbances, finest grids", xlim=NARROW, ylim=(-0.02, 0.03))
-
-
-def draw_rolls(axes: Axes, runs: pd.DataFrame, first: int) -> None:
-    """Means over seeds for each number of rows."""
-    grids = runs.groupby(["method", "resolution"])
-    for number, ((method, size), group) in enumerate(grids, first):
-        where = "" if method == "spam" else "gas on a grid, "
-        style = look(number) | {"lw": 0.9, "label": f"{where}{size:.0f} rows"}
-        at_ra = means(group)
-        errorbar(axes, at_ra.ra, at_ra.sigma, at_ra.sigma_err, **style)
 
 
 def line(energies: pd.DataFrame, lines: pd.DataFrame, critical: pd.DataFrame) -> Figure:
@@ -127,6 +67,4 @@ def zeros(axes: Axes, critical: pd.DataFrame) -> None:
     axes.legend(title=r"bars at $L \to \infty$: 95 %, scatter about the line", title_fontsize=8)
 
 
-FIGURES = Drawings(
-    Drawing("growth", ("growth_rates",), growth),
-    Drawing("line", ("energies", "lines", "critical_ra"), line))
+FIGURES = Drawings(Drawing("line", ("energies", "lines", "critical_ra"), line))

@@ -21,14 +21,8 @@ from studies.rb.claims import RB_CLAIMS
 from studies.rb.derive import derive
 from studies.rb.figures import figures
 from studies.rb.points import points
-from studies.rb.runs.grid import (
-    BoussinesqSteady,
-    CompressibleApproach,
-    CompressibleSteady,
-    CompressibleStep,
-    PypdeSteady,
-)
-from studies.rb.runs.spam import SpamRun, SpamStep
+from studies.rb.runs.grid import BoussinesqSteady, CompressibleApproach, CompressibleSteady, PypdeSteady
+from studies.rb.runs.spam import SpamRun
 
 LAYER: dict[str, Any] = {"aspect": 2.0, "sides": Periodic()}     # Fig. 5
 BOX: dict[str, Any] = {"aspect": 1.0, "sides": Walls()}          # Fig. 6
@@ -88,9 +82,6 @@ def quick() -> Iterator[Case]:
         yield from spam(ra, 16, SEEDS[:2], t_end=60.0, mean_from=25.0, keep="all" if ra == 10000 else "")
     yield CompressibleApproach(scene=RayleighBenard(ra=1e4), rows=16)
     yield PypdeSteady(scene=RayleighBenard(ra=5000.0), sizes=COARSE)
-    yield SpamStep(scene=RayleighBenard(ra=1e4, L=16.0))
-    for rows in COARSE:
-        yield CompressibleStep(scene=RayleighBenard(ra=1e4), rows=rows)
 
 
 def paper() -> Iterator[Case]:
@@ -99,10 +90,6 @@ def paper() -> Iterator[Case]:
     yield from layers()
     yield from squares()
     yield from others()
-    for height in (16.0, 25.0, 35.0, 50.0, 70.0):
-        yield SpamStep(scene=RayleighBenard(ra=1e4, L=height))
-    for rows in (16, 24, 32, 48, 64):
-        yield CompressibleStep(scene=RayleighBenard(ra=1e4), rows=rows)
 
 
 def grids() -> Iterator[Case]:

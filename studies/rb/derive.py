@@ -11,7 +11,7 @@ from studies.kit import fits
 from studies.kit.stats import Measured, combine
 from studies.kit.table import Rows, Tables
 from studies.rb.snapshots import field_errors, snapshots
-from studies.rb.tables import POINT, SCENE, STEP, STILL
+from studies.rb.tables import POINT, SCENE, STILL
 
 Row = dict[Any, Any]
 GRIDS = ("compressible", "boussinesq", "pypde-compressible")
@@ -146,7 +146,7 @@ def errors(runs: pd.DataFrame, means: pd.DataFrame, tables: Tables) -> pd.DataFr
     rows = finite(means.query("eos != ''"))
     rows = rows.merge(limits, on=SCENE, suffixes=("", "_limit"))
     rows = rows.query("method == 'spam' or rolls == rolls_limit")
-    rows = rows.merge(spent(runs, tables), on=POINT)
+    rows = rows.merge(spent(runs), on=POINT)
     rows = rows.assign(left=1.0)
     field = with_smoothing(rows, tables)
     return pd.concat([
@@ -180,18 +180,10 @@ def with_smoothing(rows: pd.DataFrame, tables: Tables) -> pd.DataFrame:
     return spam.merge(seen.drop_duplicates(key, keep="last")[[*key, "left"]], on=key)
 
 
-def spent(runs: pd.DataFrame, tables: Tables) -> pd.DataFrame:
+def spent(runs: pd.DataFrame) -> pd.DataFrame:
     """CPU seconds of what a mean is made of: all seeds of particles and points; of grids with the coarser
-    ones.
-
-    Steps times the seconds of one step measured alone where there is such a row, else what the run took
-    beside others.
+    ones. These are of runs beside others; those of the study of cost had the machine to themselves.
     """
-    columns = [*STEP, "step_s"]
-    alone = tables.get("cost", pd.DataFrame(columns=columns))
-    alone = alone[columns].astype({"resolution": float, "step_s": float})
-    runs = runs.merge(alone, how="left", on=STEP)
-    runs["cpu_s"] = (runs.steps*runs.step_s).fillna(runs.cpu_s)
     seconds = runs.groupby(POINT, dropna=False).cpu_s.sum().reset_index()
     grids = seconds.method.isin(GRIDS)
     series = seconds[grids].groupby(SERIES, dropna=False)

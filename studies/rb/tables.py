@@ -14,7 +14,6 @@ Point = dict
 SCENE = ["eos", "transport", "sides", "ra", "pr"]
 POINT = ["method", "variant", *SCENE, "resolution"]
 RUN = [*POINT, "seed"]
-STEP = ["method", "variant", "eos", "sides", "resolution"]
 #: key of a point as `Table.of` takes it
 AT = " ".join(POINT)
 ENERGIES = "ke ke_err ke_field ke_field_err ke_mean ke_mean_err ke_fluctuation nu nu_err"
@@ -46,9 +45,6 @@ PARTICLES = Table.of(
     means={"number": ("number of the particle", ""), "kind": ("fluid, fixed or image", "")})
 WALLS = Table.of("walls", f"{AT} seed plate", "T_wall T_layer rho_layer reflections nu_plate nu_plate_err",
                  about="A plate in a run: the layer beside it and the heat through it.")
-COST = Table.of("cost", "method variant eos sides resolution", "points step_s step_s_err dt threads",
-                about="CPU seconds of a step, measured while nothing else runs.",
-                means={"points": ("number of particles or cells", "")})
 NU = "of energy Nu the Nusselt number"
 ERRORS = Table.of("errors", f"{AT} energy",
                   "particles ke ke_err reference reference_err error error_err cpu_s",
@@ -72,7 +68,7 @@ ARITHMETIC = Table.of("arithmetic", "quantity", "value err",
                       about="A number that needs no flow: of the paper, equations of state, weights, 36 "
                             "particles.")
 
-ALL = (KINETIC, MEANS, HISTORY, FIELDS, PARTICLES, WALLS, COST, SMOOTHED, ERRORS, SNAPSHOTS, FIELD_ERRORS,
+ALL = (KINETIC, MEANS, HISTORY, FIELDS, PARTICLES, WALLS, SMOOTHED, ERRORS, SNAPSHOTS, FIELD_ERRORS,
        ARITHMETIC)
 
 STILL = 1e-6        # K of a grid whose onset lies a little higher: nothing flows, and rolls are of round-off

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from studies.kit import fits
 from studies.kit.stats import seed_means
 from studies.kit.table import Row, Rows, Table, Tables, groups
 
@@ -73,21 +74,13 @@ def needed(group: pd.DataFrame) -> Row:
     rows = pair["rows"].iloc[-1]*(pair.error.iloc[-1]/WANTED)**(1/order) if order > 0 else np.inf
     if not below and not (pair.error.iloc[0] < SANE and rows < FARTHER*pair["rows"].iloc[-1]):
         return {"reached": "no", "order": order, "least": least}
-    cpu_s, half = at_level(pair)
+    cpu_s, half = fits.crossing(pair, "cpu_s", WANTED)
     if not below and len(group) > 2:        # the order may go on changing
-        half = np.hypot(half, abs(np.log(cpu_s/at_level(group.tail(3).head(2))[0]))/2)
+        before, _ = fits.crossing(group.tail(3).head(2), "cpu_s", WANTED)
+        half = np.hypot(half, abs(np.log(cpu_s/before))/2)
     low, high = cpu_s*np.exp([-half, half])
     return {"reached": "yes" if below else "by order", "cpu_s": cpu_s, "low": low, "high": high, "rows": rows,
             "order": order, "least": least}
-
-
-def at_level(pair: pd.DataFrame) -> tuple[float, float]:
-    """Seconds at 1 % by a power law through two rows, and the half width of the interval of its logarithm."""
-    (first, last), (low, high) = np.log(pair.error), np.log(pair.cpu_s)
-    s = (first - np.log(WANTED))/(first - last)
-    slope = (high - low)/(first - last)
-    err = np.hypot(pair.cpu_s_err/pair.cpu_s, slope*pair.error_err/pair.error)
-    return float(np.exp(low + s*(high - low))), float(np.linalg.norm([1 - s, s]*err))
 
 
 def crossings(needs: pd.DataFrame) -> Iterator[Row]:

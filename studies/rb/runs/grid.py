@@ -2,24 +2,22 @@
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from time import process_time
-from typing import Any, ClassVar
+from typing import Any
 
 from continuum import boussinesq
-from continuum.gas.fields import block, initial, interpolate
-from continuum.gas.ghosts import FluxForm
-from continuum.gas.solve import March, Solution, limits, run, steady_on
+from continuum.gas.fields import initial, interpolate
+from continuum.gas.solve import Solution, run, steady_on
 from continuum.pypde import solve as pypde
 from continuum.pypde.gas import Gas
 from continuum.scene import RayleighBenard
-from continuum.steady import SAFETY, Steady, Time
+from continuum.steady import Steady, Time
 from particles.observe import Grid
 from studies.build.grid import FORMS, GridForm, beginning
 from studies.build.measure import Smoothing, smoothed_rows
 from studies.build.names import START_ENERGY, one_energy, scene_columns
 from studies.kit.case import Case, Outcome, Report
-from studies.kit.timing import REPEATS, compile_and_run_seconds, median_seconds
-from studies.rb.runs import of_step, table_rows
+from studies.kit.timing import compile_and_run_seconds
+from studies.rb.runs import table_rows
 
 #: columns that solutions have, too
 SAME = ("mass_drift", "converged", "dt", "steps", "cpu_s", "compile_s")
@@ -175,23 +173,3 @@ class PypdeSteady(Case):
             rows.append({**point, "resolution": size, **spent(solution), "rolls": solution.rolls})
             report(len(rows)/len(self.sizes))
         return Outcome({"kinetic_energy": rows})
-
-
-@dataclass(frozen=True, kw_only=True)
-class CompressibleStep(Case):
-    """A step of the compressible grid."""
-    scene: RayleighBenard
-    rows: int
-    alone: ClassVar[bool] = True
-
-    @property
-    def cost(self) -> float:
-        return 1e-4*self.rows**2 + 2
-
-    def run(self, report: Report, folder: Path) -> Outcome:
-        cells = block(initial(self.scene, self.rows))
-        march = March(self.scene, cells, FluxForm(), SAFETY*limits(self.scene, cells).both)
-        steps, points = max(10, 400000//self.rows**2), self.rows**2*round(self.scene.aspect)
-        seconds = median_seconds(partial(march.go, steps), REPEATS, process_time)
-        point = {"method": "compressible", "variant": "flux-form", "resolution": self.rows}
-        return Outcome({"cost": [{**point, **of_step(self.scene, points, march.dt, seconds, steps)}]})

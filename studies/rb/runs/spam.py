@@ -1,9 +1,6 @@
-"""One run of smooth particles in the layer or the box, as a case, and one step    [KHP95, Secs IV-VI]"""
+"""One run of smooth particles in the layer or the box, as a case    [KHP95, Secs IV-VI]"""
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
-from time import process_time
-from typing import ClassVar
 
 import numpy as np
 
@@ -17,8 +14,7 @@ from studies.build.setting import check_spacings
 from studies.build.spam import PRINTED, Variant, step
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import mean, settled
-from studies.kit.timing import REPEATS, Seconds, median_seconds
-from studies.rb.runs import of_step, table_rows
+from studies.rb.runs import table_rows
 from studies.rb.runs.grid import field_rows
 from studies.rb.runs.points import DIVERGED
 
@@ -141,26 +137,3 @@ class SpamRun(Case):
         kinds = np.select([number < sums.n, number < around.rows], ["fluid", "fixed"], "image")
         return table_rows(self.point, number=number, kind=kinds, x=around.x/L, y=around.y/L, vx=around.vx,
                           vy=around.vy, T=around.T)
-
-
-@dataclass(frozen=True, kw_only=True)
-class SpamStep(Case):
-    """A particle step with list upkeep, in the developing rolls of the start."""
-    scene: RayleighBenard
-    variant: Variant = PRINTED
-    alone: ClassVar[bool] = True
-
-    @property
-    def cost(self) -> float:
-        return 32*max(40000, 10*self.scene.L**2*self.scene.aspect)*4*300e-9 + 4
-
-    def run(self, report: Report, folder: Path) -> Outcome:
-        method, start, dt = self.variant.ready(self.scene)
-        warm, particles = run(method, start, Plan(dt=dt, steps=50)), start.shape[1]
-        steps = max(10, round(40000/particles))
-        # the difference of two lengths leaves out what every run pays once: lists, first evaluation, limit
-        runs = [partial(run, method, warm.state, Plan(dt=dt, steps=n)) for n in (steps, 3*steps)]
-        short, long = (median_seconds(one, REPEATS, process_time) for one in runs)
-        seconds = Seconds(long.median - short.median, float(np.hypot(long.spread, short.spread)))
-        point = {"method": "spam", "variant": self.variant.name, "resolution": round(self.scene.L)}
-        return Outcome({"cost": [{**point, **of_step(self.scene, particles, dt, seconds, 2*steps)}]})
