@@ -82,7 +82,7 @@ def line_limit(group: pd.DataFrame, name: str) -> Measured:
 
     K of sets of points scatters as 1/rows^2 or faster, 0.6 % to 0.04 % from 25 to 50 rows: hence weights of
     rows^2. One scatter stands for all that is left over, which three runs of one size tell badly. A lattice
-    at rest has the third power, too: less it, K of moving points falls as 1/rows^2 (`own-rb-carried-lattice`).
+    at rest has the third power, too: less it K of moving points falls as 1/rows^2, `own-rb-carried-lattice`.
     """
     sizes, y = group.resolution.to_numpy(float), group[name].to_numpy(float)
     powers, weight, finer = np.array([0, 2, 3]), sizes**2, sizes > sizes.min()
