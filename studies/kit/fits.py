@@ -48,11 +48,10 @@ class Fit:
         return self.at(0.0)
 
 
-def polynomial(x: Numbers, y: Numbers, degree: int = 1, *, weight: Numbers | None = None,
-               err: Numbers | None = None) -> Fit:
-    """Least squares of ``weight`` (y - c_0 - c_1 x ...), with the error that scatter about the curve tells.
+def linear(X: np.ndarray, y: Numbers, *, weight: Numbers | None = None, err: Numbers | None = None) -> Fit:
+    """Least squares of ``weight`` (y - X c), X (n, p), with the error that scatter about the curve tells.
 
-    With X_nj = x_n^j, w = diag(weight), A = (wX)^+ w:
+    With w = diag(weight), A = (wX)^+ w:
 
         c = A y,   covariance = t^2 s^2 (X^T w^2 X)^-1 + A diag(err^2) A^T,   s^2 = |w (y - X c)|^2/(n - p)
 
@@ -60,12 +59,12 @@ def polynomial(x: Numbers, y: Numbers, degree: int = 1, *, weight: Numbers | Non
 
     Raises CannotTell: there are no more values than coefficients.
     """
-    X, y = vander(np.asarray(x, float), degree), np.asarray(y, float)
+    y, p = np.asarray(y, float), X.shape[1]
     w = np.ones(len(y)) if weight is None else np.asarray(weight, float)
-    freedom = len(y) - degree - 1
+    freedom = len(y) - p
     if freedom < 1:
-        raise CannotTell(f"not run yet: {degree + 1} coefficients and their error take {degree + 2} values "
-                         f"or more, there are {len(y)}")
+        raise CannotTell(f"not run yet: {p} coefficients and their error take {p + 1} values or more, there "
+                         f"are {len(y)}")
     wX = w[:, None]*X
     size = np.linalg.norm(wX, axis=0)
     inverse = np.linalg.pinv(wX/size)/size[:, None]
@@ -76,6 +75,12 @@ def polynomial(x: Numbers, y: Numbers, degree: int = 1, *, weight: Numbers | Non
     if err is not None:
         spread = spread + (A*np.asarray(err, float)**2)@A.T
     return Fit(A@y, spread, residuals)
+
+
+def polynomial(x: Numbers, y: Numbers, degree: int = 1, *, weight: Numbers | None = None,
+               err: Numbers | None = None) -> Fit:
+    """The same of y = c_0 + c_1 x + c_2 x^2 ..."""
+    return linear(vander(np.asarray(x, float), degree), y, weight=weight, err=err)
 
 
 def weighted(x: Numbers, y: Numbers, err: Numbers) -> Fit:

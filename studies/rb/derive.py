@@ -18,8 +18,8 @@ GRIDS = ("compressible", "boussinesq", "pypde-compressible")
 SERIES = [name for name in POINT if name != "resolution"]
 ENERGIES = ["ke", "ke_field", "ke_mean", "nu"]
 HALF = "printed-half-step"
-#: the finest over the coarsest size in a limit: 80 and 25 rows; set after a look at 12 to 40 rows of moving
-#: points, which fall faster than 1/rows^2
+#: the finest over the coarsest size from which a limit of points takes 1/rows^3 besides: 80 and 25 rows. Both
+#: were set after a look: at 12 to 40 rows of moving points, then at lattices at rest, whose K has that power
 COARSEST = 3.2
 #: columns of the finest run that an extrapolated row takes over, and sums of all
 SAME = ["rolls", "free_fall", "converged", "threads"]
@@ -52,14 +52,11 @@ def extrapolated(runs: pd.DataFrame) -> Iterator[Row]:
     """One row `resolution = inf` of each series of grids or points with three settled sizes or more, one
     state in all.
 
-    Grids and lattices have no chance in them; of sets of points that differ each run counts by itself, those
-    much coarser than the finest left out: higher orders show in them.
+    Grids and lattices have no chance in them; of sets of points that differ each run counts by itself.
     """
     settled = runs[runs.converged.astype(str) == "True"]
     series = settled[settled.method.isin([*GRIDS, "dih"])].sort_values("resolution")
     for point, group in series.groupby(SERIES, dropna=False):
-        if "dih" in point:
-            group = group[group.resolution*COARSEST >= group.resolution.max()]
         if group.resolution.nunique() < 3 or group.rolls.nunique() > 1:
             continue
         limit = grid_limit if group.resolution.is_unique else line_limit
@@ -80,16 +77,18 @@ def grid_limit(group: pd.DataFrame, name: str) -> Measured:
 
 
 def line_limit(group: pd.DataFrame, name: str) -> Measured:
-    """Value at 1/rows^2 = 0 of a line through all runs; its error: of the fit, and twice what the coarsest
-    change.
+    """Value at 1/rows = 0 of c + c_2/rows^2 through all runs, with c_3/rows^3 over a wide range of rows; its
+    error: of the fit, and twice what the coarsest change.
 
     K of sets of points scatters as 1/rows^2 or faster, 0.6 % to 0.04 % from 25 to 50 rows: hence weights of
-    rows^2. One scatter stands for all that is left over, which three runs of one size tell badly.
+    rows^2. One scatter stands for all that is left over, which three runs of one size tell badly. A lattice
+    at rest has the third power, too: less it K of moving points falls as 1/rows^2, `own-rb-carried-lattice`.
     """
     sizes, y = group.resolution.to_numpy(float), group[name].to_numpy(float)
-    x, weight, finer = 1/sizes**2, sizes**2, sizes > sizes.min()
-    limit = fits.line(x, y, weight=weight).intercept
-    _, without = np.polyfit(x[finer], y[finer], 1, w=weight[finer])
+    powers, weight, finer = np.array([0, 2, 3]), sizes**2, sizes > sizes.min()
+    X = (1/sizes[:, None])**(powers if sizes.max() > COARSEST*sizes.min() else powers[:2])
+    limit = fits.linear(X, y, weight=weight).intercept
+    without, *_ = np.linalg.lstsq((weight[:, None]*X)[finer], (weight*y)[finer])[0]
     return limit + Measured(0.0, 2*(limit.value - without))
 
 
