@@ -1,7 +1,7 @@
 """Which methods ride in which stream, with how many rows, and what a ride gives: errors, steps, seconds.
 
 Each method takes its own usual step. Errors and seconds are cases of their own: what is timed never shares
-the machine. The paper size takes about 45 minutes of CPU, ten of them alone.
+the machine. The paper size takes an hour of CPU, twenty minutes of it alone.
 """
 from collections.abc import Iterator
 from dataclasses import dataclass

@@ -28,7 +28,7 @@ NEEDED = Table.of("needed", SERIES, "reached cpu_s low high rows order least", m
 CROSSINGS = Table.of("crossings", "scene quantity rival", "moving stream low high slowest fastest", means={
     "rival": ("who stands still", ""), "low": ("lower end of its 95 % interval", ""),
     "high": ("upper end of its 95 % interval", ""),
-    "moving": ("who is cheaper: always, never, from a stream on; or neither comes to 1 %", ""),
+    "moving": ("cheaper: always, never, from a stream on; as much: intervals overlap; none comes to 1 %", ""),
     "stream": ("that speed of the stream; none where one of both never comes to 1 % beyond `low`", ""),
     "slowest": ("their seconds over the rival's, at rest", ""),
     "fastest": ("the same in the fastest stream; 0 where the rival does not come to 1 %", "")},
@@ -95,7 +95,8 @@ def crossings(needs: pd.DataFrame) -> Iterator[Row]:
 
 
 def crossing(both: pd.DataFrame) -> Row:
-    """The stream from which on the seconds of moving points are fewer, for good.
+    """The stream from which on the seconds of moving points are fewer, for good; as much: no interval of a
+    difference leaves out zero.
 
     Seconds of who does not come to 1 % are infinite: of a crossing there the two streams around are known.
     """
@@ -103,14 +104,16 @@ def crossing(both: pd.DataFrame) -> Row:
     with np.errstate(divide="ignore"):
         ratio = np.log((own/other)[np.isfinite(own) | np.isfinite(other)])
     if ratio.empty:
-        return {"moving": "neither comes to 1 %"}
+        return {"moving": "none comes to 1 %"}
     ends = {"slowest": float(np.exp(ratio.get(0.0, np.nan))), "fastest": float(np.exp(ratio.iloc[-1]))}
     wins = int((ratio < 0)[::-1].cummin().sum())
+    half = np.hypot(*(np.log(both["high" + end]/both["cpu_s" + end]) for end in ("", "_moving")))
+    if (ratio.abs() < half[ratio.index]).all():
+        return {"moving": "as much"} | ends
     if wins in (0, len(ratio)):
         return {"moving": "always" if wins else "never"} | ends
     pair = ratio.iloc[-wins - 1:].head(2)
-    half = np.hypot(*(np.log(both["high" + end]/both["cpu_s" + end]) for end in ("", "_moving")))[pair.index]
-    return {"moving": "from a stream on"} | zero(pair, half) | ends
+    return {"moving": "from a stream on"} | zero(pair, half[pair.index]) | ends
 
 
 def zero(pair: pd.Series, half: pd.Series) -> Row:
