@@ -113,31 +113,35 @@ worker: export MKL_NUM_THREADS = 1
 worker: export NUMBA_NUM_THREADS = 1
 worker: $(if $(SCHEDULER),$(study))  ## lend this machine to the cluster at SCHEDULER; ARGS="--nworkers 8" lends 8 cores of it
 	@test -n '$(SCHEDULER)' || { echo 'make worker SCHEDULER=tcp://host:port: the address that dask scheduler prints' >&2; exit 2; }
-	.venv/bin/dask worker $(SCHEDULER) --nthreads 1 --no-dashboard $(ARGS)
+	$(run) -m dask worker $(SCHEDULER) --nthreads 1 --no-dashboard $(ARGS)
 
 clean:  ## remove caches; .venv and finished cases (results/raw) stay
 	rm -rf .numba_cache .pytest_cache .mypy_cache .ruff_cache
 	find . -name __pycache__ -not -path './.venv/*' -prune -exec rm -rf {} +
 
-# The stamp comes last: an environment that was interrupted half-way is made again. Python compiles a library
-# when it is imported first: most of them are not. Bars of progress are for people, a pipe gets lines.
-install = $(run) -m pip install --disable-pip-version-check --only-binary :all: --no-compile \
+# Set up beside and renamed, one at a time: a study that runs keeps its environment meanwhile. Python compiles a
+# library when it is imported first: most of them are not. Bars of progress are for people, a pipe gets lines.
+install = -m pip install --disable-pip-version-check --only-binary :all: --no-compile \
 	$$(test -t 1 || echo --progress-bar off)
+locked = $(PYTHON) -c 'import fcntl, subprocess, sys; lock = open(".venv-lock", "w"); fcntl.flock(lock, fcntl.LOCK_EX); \
+	sys.exit(subprocess.call(["sh", "-ec", sys.argv[1]]))'
 
 .venv/ready: requirements.lock
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and \
 		"Python %d.%d is too old, 3.11 is needed: make PYTHON=python3.11 ..." % sys.version_info[:2])'
 	@test ! -L .venv || { echo '.venv is a link, and what it leads to would be emptied: make env there, then touch .venv/ready' >&2; exit 2; }
-	@echo 'Setting up .venv, once: 0.6 GB, about a minute'
-	@$(PYTHON) -m venv --clear .venv
-	@$(install) -r requirements.lock
-	@$(run) -m pip uninstall --quiet --yes setuptools	# of Python 3.11, 9 MB that nothing here needs
-	@touch $@
+	@$(locked) 'if test $@ -nt $<; then exit; fi; \
+	echo "Setting up .venv, once: 0.6 GB, about a minute"; \
+	$(PYTHON) -m venv --clear .venv-new; \
+	.venv-new/bin/python $(install) -r $<; \
+	.venv-new/bin/python -m pip uninstall --quiet --yes setuptools; \
+	grep -rIl "[.]venv-new" .venv-new/bin | xargs sed -i.bak "s/[.]venv-new/.venv/g"; rm .venv-new/bin/*.bak; \
+	touch .venv-new/ready; rm -rf .venv-old; if test -e .venv; then mv .venv .venv-old; fi; \
+	mv .venv-new .venv; rm -rf .venv-old'	# setuptools of Python 3.11: 9 MB that nothing here needs
 
 .venv/ready-%: requirements-%.lock .venv/ready
 	@echo 'Adding $< to .venv, once'
-	@$(install) -r $<
-	@touch $@
+	@$(locked) 'if ! test $@ -nt $<; then $(run) $(install) -r $<; touch $@; fi'
 
 # versions stay; those of a lock that was emptied become the newest that fit the others
 locks: locking := uv pip compile -q --universal --python-version 3.11 --generate-hashes --no-header --no-annotate

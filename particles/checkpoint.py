@@ -1,9 +1,14 @@
 """Checkpoints of a run as HDF5: written beside and then renamed, so the last good one survives."""
 import hashlib
+import io
 import os
+from collections.abc import Mapping
 from dataclasses import fields, is_dataclass
+from enum import Enum
 from errno import ENOSPC
-from pathlib import Path
+from functools import cached_property, partial
+from pathlib import Path, PurePath
+from types import CodeType, FunctionType, MethodType
 from typing import Any
 
 import h5py
@@ -13,39 +18,76 @@ from continuum.jit import source_hash
 from particles.plan import Plan, Run
 
 SCALARS = ("step", "samples", "reflections", "skin", "cpu_s", "compile_s")
+#: bytes before the HDF5 file, which its readers skip: the hash of all that follow
+SEAL = 512
+#: what repr says completely
+PLAIN = (bool, int, float, complex, str, bytes, np.generic, type(None), type(...), Enum, PurePath)
 
 
-def told(value: Any) -> str:
-    """What tells a method from another: arrays by the sums of their sizes."""
-    if isinstance(value, np.ndarray):
-        return repr(float(np.abs(value).sum()))
-    if isinstance(value, type) or not (is_dataclass(value) or isinstance(value, tuple)):
+def told(value: Any, within: tuple[int, ...] = ()) -> str:
+    """What tells a value from another, the same in every process. TypeError: nothing does."""
+    value = getattr(value, "py_func", value)        # of a compiled function the one that was written
+    if isinstance(value, PLAIN):
         return repr(value)
-    parts = value if isinstance(value, tuple) else (getattr(value, field.name) for field in fields(value))
-    return f"{type(value).__name__}({', '.join(map(told, parts))})"
+    if isinstance(value, type):
+        return f"{value.__module__}.{value.__qualname__}"
+    if id(value) in within:
+        return "itself"
+    parts, inner = _parts(value), (*within, id(value))
+    texts = ([f"{name}={told(part, inner)}" for name, part in parts.items()] if isinstance(parts, dict)
+             else [told(part, inner) for part in parts])
+    return f"{type(value).__name__}({', '.join(texts)})"
+
+
+def _parts(value: Any) -> Any:
+    """What a value is made of: of an object all that it holds, but for cached properties."""
+    match value:
+        case np.ndarray() if value.dtype.names or value.dtype.hasobject:    # gaps, pointers
+            return str(value.dtype), value.tolist()
+        case np.ndarray():
+            return str(value.dtype), value.shape, hashlib.sha256(value.tobytes()).hexdigest()
+        case FunctionType():
+            cells = [cell.cell_contents for cell in value.__closure__ or ()]
+            preset = value.__defaults__, value.__kwdefaults__
+            return value.__module__, value.__qualname__, value.__code__, preset, cells
+        case CodeType():
+            return hashlib.sha256(value.co_code).hexdigest(), value.co_names, value.co_consts
+        case MethodType():
+            return value.__func__.__qualname__, value.__self__
+        case partial():
+            return value.func, value.args, value.keywords
+        case Mapping():
+            return [*value.items()]
+        case set() | frozenset():
+            return sorted(map(told, value))
+        case tuple() | list():
+            return value
+    if is_dataclass(value):
+        return {field.name: getattr(value, field.name) for field in fields(value)}
+    if not hasattr(value, "__dict__"):
+        raise TypeError(f"a checkpoint cannot tell {value!r} from another {type(value).__name__}: make it of "
+                        "numbers, arrays, functions and classes, or run without a checkpoint")
+    return {name: part for name, part in vars(value).items()
+            if not isinstance(getattr(type(value), name, None), cached_property)}
 
 
 def _identity(method: Any, plan: Plan, start: np.ndarray) -> dict[str, str]:
     """What must be the same for a restart to be the same run."""
     words = (f"{told(method)} dt={plan.dt!r} every={plan.every} mean_from={plan.mean_from!r} "
-             f"{[*plan.series]} {[*plan.means]}")
-    return {"code": source_hash(), "parameters": words, "start": hashlib.sha256(start.tobytes()).hexdigest()}
+             f"{told(plan.series)} {told(plan.means)}")
+    return {"code": source_hash(), "parameters": words, "start": told(start)}
 
 
 def save(path: Path, method: Any, plan: Plan, start: np.ndarray, now: Run) -> None:
     """Write the run to `path`; on a full disk the former checkpoint stays and OSError says so."""
-    beside = path.with_suffix(".part")
+    beside = path.with_name(f"{path.name}.part")
     path.parent.mkdir(parents=True, exist_ok=True)
     try:
-        with h5py.File(beside, "w") as file:
-            file.attrs.update(_identity(method, plan, start))
-            for name in SCALARS:
-                file.attrs[name] = getattr(now, name)
-            for name in ("state", "ids", "anchor", "times"):
-                file[name] = [] if getattr(now, name) is None else getattr(now, name)
-            for group, values in (("series", now.series), ("sums", now.sums)):
-                for name, value in values.items():
-                    file[f"{group}/{name}"] = value
+        content = _packed(_identity(method, plan, start), plan, now)
+        with beside.open("wb") as file:
+            file.write(_seal(content) + content)
+            file.flush()
+            os.fsync(file.fileno())
         os.replace(beside, path)
     except OSError as error:
         beside.unlink(missing_ok=True)
@@ -54,28 +96,65 @@ def save(path: Path, method: Any, plan: Plan, start: np.ndarray, now: Run) -> No
                       "kept") from error
 
 
+def _seal(content: bytes) -> bytes:
+    return hashlib.sha256(content).hexdigest().encode().ljust(SEAL, b"\0")
+
+
+def _packed(identity: dict[str, str], plan: Plan, now: Run) -> bytes:
+    """A run as an HDF5 file without its seal; series and sums are numbered, their names may be any text."""
+    whole = io.BytesIO()
+    with h5py.File(whole, "w", userblock_size=SEAL) as file:
+        for name, text in identity.items():
+            file[name] = text       # attributes are short
+        for name in SCALARS:
+            file.attrs[name] = getattr(now, name)
+        for name in ("state", "ids", "anchor", "times"):
+            file[name] = [] if getattr(now, name) is None else getattr(now, name)
+        for group, names in _groups(plan):
+            values = getattr(now, group)
+            for number, name in enumerate(names if values else ()):
+                file[f"{group}/{number}"] = values[name]
+    return whole.getvalue()[SEAL:]
+
+
+def _groups(plan: Plan) -> tuple[tuple[str, list[str]], ...]:
+    return ("series", [*plan.series]), ("sums", [*plan.means])
+
+
 def load(path: Path | None, method: Any, plan: Plan, start: np.ndarray) -> Run | None:
-    """The run at `path`, None without one. ValueError: unreadable, or of another run."""
-    if path is None or not path.exists():
+    """The run at `path`, None without one. ValueError: unreadable, of another run, or beyond its end."""
+    if path is None:
+        return None
+    wanted = _identity(method, plan, start)
+    if not path.exists():
         return None
     try:
-        with h5py.File(path, "r") as file:
-            _same(path, dict(file.attrs), _identity(method, plan, start))
+        whole = path.read_bytes()
+        if whole[:SEAL] != _seal(whole[SEAL:]):
+            raise OSError("it is not as it was written")
+        with h5py.File(io.BytesIO(whole), "r") as file:
+            _same(path, {name: file[name].asstr()[()] for name in wanted}, wanted)
             numbers = {name: file.attrs[name].item() for name in SCALARS}
             arrays = {name: file[name][()] for name in ("state", "ids", "anchor")}
             arrays["anchor"] = arrays["anchor"] if arrays["anchor"].size else None    # fixed points have none
-            groups = {g: {name: item[()] for name, item in file.get(g, {}).items()}
-                      for g in ("series", "sums")}
-            times = list(file["times"][()])
+            groups = {group: {name: file[f"{group}/{number}"][()] for number, name in enumerate(names)}
+                      for group, names in _groups(plan) if group in file}
+            times = file["times"][()].tolist()
+        if arrays["state"].shape != start.shape or sorted(arrays["ids"]) != [*range(start.shape[1])]:
+            raise OSError(f"its state {arrays['state'].shape} or numbers of particles do not fit a start "
+                          f"{start.shape}")
     except (OSError, KeyError) as error:
         raise ValueError(f"checkpoint {path.name} cannot be read ({error}): delete it") from error
-    series = {name: list(values) for name, values in groups["series"].items()}
-    return Run(**arrays, **numbers, times=times, series=series, sums=groups["sums"])
+    if numbers["step"] > plan.steps:
+        raise ValueError(f"checkpoint {path.name} is at step {numbers['step']}, beyond steps = {plan.steps}: "
+                         "take more steps, or delete it to start anew")
+    series = {name: values.tolist() for name, values in groups.get("series", {}).items()}
+    return Run(**arrays, **numbers, times=times, series=series, sums=groups.get("sums", {}))
 
 
-def _same(path: Path, stored: dict, wanted: dict[str, str]) -> None:
+def _same(path: Path, stored: dict[str, str], wanted: dict[str, str]) -> None:
     for what, value in wanted.items():
-        if (had := str(stored.get(what))) != value:
+        if (had := stored[what]) != value:
             same = next((k for k, (a, b) in enumerate(zip(had, value, strict=False)) if a != b), 0)
             cut = slice(max(0, same - 20), same + 40)
             raise ValueError(f"checkpoint {path.name} is of other {what}: it has ...{had[cut]}..., this run "

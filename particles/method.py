@@ -88,10 +88,6 @@ class OwnRates(Sums):
     def start(self, n: int, threads: Threads) -> Any:
         return self
 
-    def __repr__(self) -> str:
-        """By which a checkpoint knows it again."""
-        return f"{type(self).__name__}({self.scene!r})"
-
 
 class LatticeRates(OwnRates):
     """Mass, momentum and energy per volume on a lattice of unit spacing: inherit it, write `rates`."""

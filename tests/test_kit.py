@@ -1,5 +1,8 @@
 """Nothing finished is lost, nothing stale is taken for finished."""
 import math
+import multiprocessing
+import re
+import time
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import NamedTuple
@@ -8,6 +11,7 @@ import numpy as np
 import pytest
 
 from studies.kit.case import Case, Outcome, word
+from studies.kit.store import kept
 from studies.kit.study import Study
 from studies.kit.sweep import CasesFailed
 from studies.kit.table import Table, read
@@ -97,15 +101,40 @@ def test_an_interrupted_study_goes_on_where_it_stopped(bench):
     assert not [path for path in (bench.folder / "raw/toy").iterdir() if path.is_dir()], "scratch folders go"
 
 
-@pytest.mark.parametrize("damaged", ["", '{"case": 1', "[]"])
-def test_a_kept_outcome_that_is_damaged_is_reported_and_run_again(bench, damaged, capsys):
-    case, = bench.cases(2)
-    bench.sweep([case])
-    path = bench.folder/f"raw/toy/{case.key}.json"
-    path.write_text(damaged)
-    bench.ran()
-    assert list(bench.sweep([case])["squares"].y) == [4]
-    assert bench.ran() == ["2"]
+def test_a_study_that_is_killed_at_any_time_ends_with_the_same_tables(tmp_path):
+    whole, killed = Bench(tmp_path/"whole"), Bench(tmp_path/"killed")
+    cases = [Square(x=float(x), log="/dev/null") for x in range(40)]
+    begin = time.monotonic()
+    whole.sweep(cases)
+    longest = time.monotonic() - begin
+    for wait in np.random.default_rng(1).uniform(0, longest, 12):
+        study = multiprocessing.get_context("fork").Process(target=killed.sweep, args=(cases,))
+        study.start()
+        time.sleep(wait)
+        study.kill()
+        study.join()
+    killed.sweep(cases)
+    # without the head, which has the date
+    one, other = ((bench.folder/"toy/squares.csv").read_text().split("# text") for bench in (whole, killed))
+    assert one[1] == other[1]
+
+
+def test_a_kept_outcome_that_is_damaged_is_reported_and_run_again(bench, capsys):
+    case, other = bench.cases(2, 3)
+    bench.sweep([case, other])
+    folder = bench.folder/"raw/toy"
+    path, rows = folder/f"{case.key}.json", kept(case, folder)
+    whole = path.read_bytes()
+    flips = [bytes([*whole[:bit//8], whole[bit//8] ^ 1 << bit % 8, *whole[bit//8 + 1:]])
+             for bit in range(8*len(whole))]
+    unsealed = re.sub(rb',\s*"seal": "\w+"', b"", whole)
+    assert unsealed != whole
+    for damaged in (b"", b"[]", unsealed, (folder/f"{other.key}.json").read_bytes(), *flips):
+        path.write_bytes(damaged)
+        assert kept(case, folder) in (None, rows)       # a digit beyond the last of a float tells nothing
+    path.write_bytes(unsealed)
+    bench.ran(), capsys.readouterr()
+    assert list(bench.sweep([case])["squares"].y) == [4, 9] and bench.ran() == ["2"]
     text = capsys.readouterr().err
     assert "cannot be read" in text and text.count("Square 2") == text.count("is run again") == 1
 

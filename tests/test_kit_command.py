@@ -19,6 +19,7 @@ def test_an_interrupted_study_goes_on_with_the_same_command(tmp_path):
     toy = Toy(tmp_path, "def wave(x):\n    return x**3\n")
     running = toy.start(OMP_NUM_THREADS="2")
     until(lambda: len(toy.began()) == 4 and toy.kept() == 3, running)
+    assert toy.run()[1].startswith("toy: toy runs in results already: let it end, or give another --out")
     os.killpg(running.pid, signal.SIGINT)       # as Ctrl-C does: to the study and to its workers
     code, text = finish(running)
     assert code == 130 and "3 of 6 cases are finished and kept, the same command goes on from there" in text

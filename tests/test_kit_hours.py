@@ -7,6 +7,7 @@ from studies.kit import timing
 from studies.kit.case import Case, Outcome
 from studies.kit.csvfile import read
 from studies.kit.dispatch import Bar
+from studies.kit.store import content_of, keep, kept
 from studies.kit.study import Study
 from studies.kit.table import Table
 
@@ -31,9 +32,9 @@ TOY = Study(name="toy", cases=lambda size: [Work(x=x) for x in SIZES[size]],
 
 def claim_seconds(out: Path, factor: float) -> None:
     """Let each finished case have taken `factor` times its estimate."""
-    for path in (out/"raw/toy").glob("*.json"):
-        content = json.loads(path.read_text())
-        path.write_text(json.dumps({**content, "cpu_s": factor*content["case"]["x"]}))
+    folder = out/"raw/toy"
+    for case in (case for case in TOY.cases("paper") if kept(case, folder)):
+        keep(case, json.dumps({**content_of(case, folder), "cpu_s": factor*case.cost}), folder)
 
 
 def left(size: str, out: Path) -> tuple[int, float]:

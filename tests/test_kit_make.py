@@ -1,7 +1,9 @@
 """make: names that exist before anything is set up, and a list of them."""
+import os
 import re
 import shutil
 import subprocess
+import sys
 
 import pytest
 
@@ -85,3 +87,22 @@ def test_a_worker_is_told_that_it_needs_the_address_of_a_scheduler_before_anythi
     code, text = make("worker")
     assert not (tmp_path / ".venv").exists() and "Setting up" not in text
     assert code and "make worker SCHEDULER=tcp://host:port: the address that dask scheduler" in text
+
+
+def test_two_that_set_up_at_once_do_it_once_beside_the_environment_that_runs(make, tmp_path):
+    set_up(tmp_path, "ready")
+    os.utime(tmp_path/".venv/ready", (0, 0))
+    (tmp_path/".venv/runs").touch()
+    python = tmp_path/"python"
+    python.write_text(f"""#!/bin/sh
+case "$*" in
+-c*) exec {sys.executable} "$@";;
+*venv*) mkdir -p .venv-new/bin; cp "$0" .venv-new/bin/python; sleep 0.5; ls .venv >> seen;;
+esac
+""")
+    python.chmod(0o755)
+    both = [subprocess.Popen(["make", "env", f"PYTHON={python}"], cwd=tmp_path) for _ in range(2)]
+    assert [one.wait() for one in both] == [0, 0]
+    assert (tmp_path/"seen").read_text().split() == ["ready", "runs"]
+    assert sorted(path.name for path in tmp_path.glob(".venv*")) == [".venv", ".venv-lock"]
+    assert sorted(path.name for path in (tmp_path/".venv").iterdir()) == ["bin", "ready"]

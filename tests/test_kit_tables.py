@@ -2,7 +2,9 @@
 import errno
 import gzip
 import math
-from pathlib import Path
+import os
+import time
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pandas as pd
@@ -160,10 +162,9 @@ def test_a_table_that_cannot_be_written_stays_as_it_was(tmp_path, monkeypatch):
     merge(path, SQUARES, [row(1, 1)], size="quick")
     text = path.read_text()
 
-    def full(self, content):
-        self.write_text(content[:100].decode())
+    def full(file):
         raise OSError(errno.ENOSPC, "No space left on device")
-    monkeypatch.setattr(Path, "write_bytes", full)
+    monkeypatch.setattr(os, "fsync", full)
     with pytest.raises(OSError, match="No space"):
         merge(path, SQUARES, [row(1, 2)], size="quick")
     assert path.read_text() == text and [p.name for p in tmp_path.iterdir()] == ["squares.csv"]
@@ -220,6 +221,20 @@ def test_claims_of_other_studies_stay(tmp_path):
     assert list(zip(frame.study, frame.id, frame.verdict, frame.reason)) == [
         ("rb", "b", "undecidable", "run SIZE=paper"), ("rb", "d", "undecidable", "no number is printed"),
         ("speed", "z", "holds", "accepted 1 +- 0.5: one printed digit")]
+
+
+def test_studies_that_judge_at_once_keep_the_claims_of_each_other(tmp_path, monkeypatch):
+    def slow(*words):
+        frame = read(*words)
+        time.sleep(0.05)
+        return frame
+    path, names = tmp_path/"claims.csv", ["cost", "noise", "rb"]
+    put_claims(path, judge([claim(id="a", expect=1.0, within=0.5)], Tables(), "onset"))
+    monkeypatch.setattr(csvfile, "read", slow)
+    with ThreadPoolExecutor() as pool:
+        list(pool.map(lambda name: put_claims(path, judge([claim(id=name, expect=1.0, within=0.5)], Tables(),
+                                                          name)), names))
+    assert list(read(path).study) == ["cost", "noise", "onset", "rb"]
 
 
 @pytest.mark.parametrize("value", [

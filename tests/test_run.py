@@ -1,6 +1,7 @@
 """The time loop: what is interrupted goes on bitwise, what diverges says where; refusals."""
 import errno
 from dataclasses import replace
+from functools import partial
 
 import h5py
 import numpy as np
@@ -74,9 +75,56 @@ def test_a_checkpoint_of_other_code_or_a_broken_one_is_refused(tmp_path, monkeyp
         other.setattr(checkpoint, "source_hash", lambda: "another")
         with pytest.raises(ValueError, match="other code"):
             run(method, start, plan)
-    plan.checkpoint.write_bytes(plan.checkpoint.read_bytes()[:1000])
-    with pytest.raises(ValueError, match=r"cannot be read.*delete it"):
+        whole = plan.checkpoint.read_bytes()
+        # a step that has no factor with 8: all bits of a byte come in turn
+        for bit in range(0, 8*len(whole), 211):
+            flipped = bytearray(whole)
+            flipped[bit//8] ^= 1 << bit % 8
+            plan.checkpoint.write_bytes(flipped)
+            with pytest.raises(ValueError, match=r"cannot be read.*delete it"):
+                checkpoint.load(plan.checkpoint, method, plan, start)
+    plan.checkpoint.write_bytes(whole)
+    with h5py.File(plan.checkpoint, "r+") as file:
+        file.attrs["step"] = 0
+    with pytest.raises(ValueError, match="not as it was written"):
         run(method, start, plan)
+
+
+@pytest.mark.parametrize("change", [lambda now: replace(now, state=now.state[:4]),
+                                    lambda now: replace(now, ids=now.ids + 10**6)])
+def test_a_sealed_checkpoint_of_another_shape_is_refused_before_it_is_used(tmp_path, change):
+    method, start, plan = half_done(tmp_path)
+    checkpoint.save(plan.checkpoint, method, plan, start,
+                    change(checkpoint.load(plan.checkpoint, method, plan, start)))
+    with pytest.raises(ValueError, match=r"cannot be read \(its state"):
+        run(method, start, plan)
+
+
+def test_a_run_shorter_than_its_checkpoint_is_refused(tmp_path):
+    with pytest.raises(ValueError, match="is at step 32, beyond steps = 20: take more steps"):
+        run(*half_done(tmp_path, steps=20))
+
+
+def test_names_of_series_and_means_may_be_any_text(tmp_path):
+    names = {"a/b": particle_kinetic, ".": field_kinetic, "": heat_flow}
+    plan = replace(PLAN, series=names, means={"a/b": wall_layers}, checkpoint=tmp_path/"run.h5")
+    method, start = small()
+    with pytest.raises(KeyboardInterrupt):
+        run(method, start, plan, stop_half_way)
+    assert run(method, start, plan).series.keys() == names.keys()
+
+
+def scaled(factor: float):
+    return lambda sums, state: factor
+
+
+@pytest.mark.parametrize(("one", "other"), [
+    (np.zeros(2000), np.r_[np.zeros(1000), -1.0, np.zeros(999)]), (np.r_[1.0, 2.0], np.r_[2.0, 1.0]),
+    (scaled(1.0), scaled(2.0)), (lambda: 1, lambda: 2), (Grid(1.0, 2.0), Grid(2.0, 2.0)),
+    (partial(scaled, 1.0), partial(scaled, 2.0))])
+def test_what_differs_is_told_apart(one, other):
+    """Arrays in the middle and by their order, functions by what they enclose."""
+    assert checkpoint.told(one) != checkpoint.told(other) and " at 0x" not in checkpoint.told(one)
 
 
 def test_full_disk_keeps_the_last_checkpoint(tmp_path, monkeypatch):

@@ -1,11 +1,13 @@
 """CSV below a head of comments: where numbers come from, which columns are text. Large files are packed."""
+import fcntl
 import gzip
 import os
 import platform
 import re
 import subprocess
 import zlib
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from datetime import UTC, datetime
 from functools import cache
 from importlib.metadata import version
@@ -86,11 +88,27 @@ def write(path: Path, frame: pd.DataFrame, *, head: Iterable[str]) -> None:
 def put(path: Path, new: pd.DataFrame, *, by: list[str], order: list[str], head: Iterable[str]) -> None:
     """Rows, all the same in the columns ``by``, in place of those that are the same there in the file."""
     rows = new
-    if path.exists():
-        old = read(path, new.columns)
-        replaced = (old[by] == new[by].iloc[0]).all(axis=1)
-        rows = new if replaced.all() else pd.concat([old[~replaced], new])
-    write(path, rows.sort_values(order), head=head)
+    with locked(path.parent/"raw"):     # several studies write into one file
+        if path.exists():
+            old = read(path, new.columns)
+            replaced = (old[by] == new[by].iloc[0]).all(axis=1)
+            rows = new if replaced.all() else pd.concat([old[~replaced], new])
+        write(path, rows.sort_values(order), head=head)
+
+
+@contextmanager
+def locked(folder: Path, busy: str = "") -> Iterator[None]:
+    """Nobody else has the lock of a folder meanwhile; it ends with the process, too.
+
+    Waits for who has it, or raises BlockingIOError with the message ``busy``.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    with (folder/"lock").open("a") as file:
+        try:
+            fcntl.flock(file, fcntl.LOCK_EX | (fcntl.LOCK_NB if busy else 0))
+        except BlockingIOError:
+            raise BlockingIOError(busy) from None
+        yield
 
 
 def is_text(column: pd.Series, path: Path) -> bool:
@@ -109,7 +127,10 @@ def write_atomic(path: Path, content: str | bytes) -> None:
     path.parent.mkdir(parents=True, exist_ok=True)
     part = path.with_name(f".{path.name}.{os.getpid()}")
     try:
-        part.write_bytes(content.encode() if isinstance(content, str) else content)
+        with part.open("wb") as file:
+            file.write(content.encode() if isinstance(content, str) else content)
+            file.flush()
+            os.fsync(file.fileno())     # else the name may reach the disk before what it names
         os.replace(part, path)
     finally:
         part.unlink(missing_ok=True)

@@ -6,10 +6,11 @@ import time
 import traceback
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 from studies.kit.case import Case, Outcome, Report, parameters
 from studies.kit.csvfile import commit, cpu, now, versions, write_atomic
-from studies.kit.key import ROOT
+from studies.kit.key import ROOT, digest
 from studies.kit.table import Rows
 
 RESULTS = ROOT / "results"
@@ -64,7 +65,7 @@ def keep(case: Case, result: str | Failure, folder: Path) -> Failure | None:
             return result
         write_atomic(story, result.story)
         return replace(result, path=story)
-    write_atomic(folder / f"{case.key}.json", result)
+    write_atomic(folder / f"{case.key}.json", sealed(case, json.loads(result)))
     story.unlink(missing_ok=True)
     shutil.rmtree(folder / case.key, ignore_errors=True)    # a case of a cluster has none here
     return None
@@ -77,21 +78,40 @@ def as_text(case: Case, outcome: Outcome, cpu_s: float) -> str:
     return json.dumps(content, default=lambda value: value.tolist(), indent=1)      # numpy's as Python's
 
 
+def sealed(case: Case, content: dict[str, Any]) -> str:
+    """Content as it is kept: with a hash of all of it and of the case's key."""
+    return json.dumps({**content, "seal": seal(case, content)}, indent=1)
+
+
+def seal(case: Case, content: dict[str, Any]) -> str:
+    return digest(case.key, json.dumps(content, sort_keys=True))
+
+
+def content_of(case: Case, folder: Path) -> dict[str, Any]:
+    """What is kept of a finished case. Raises FileNotFoundError; ValueError: it is not as it was written."""
+    content = json.loads((folder/f"{case.key}.json").read_text())
+    if not isinstance(content, dict) or content.pop("seal", "") != seal(case, content):
+        raise ValueError("it is not as it was written")
+    values = [value for rows in content["rows"].values() for row in rows for value in row.values()]
+    if not all(isinstance(value, str | int | float | None) for value in [content["cpu_s"], *values]):
+        raise ValueError("it has more than numbers and texts")
+    return content
+
+
 def kept(case: Case, folder: Path) -> Rows | None:
     """Rows of a finished case by table, each with the commit that computed it; None when it must be run."""
-    path = folder / f"{case.key}.json"
-    if not path.exists():
-        return None
     try:
-        content = json.loads(path.read_text())
-        return {table: [{**row, "commit": content["commit"]} for row in rows]
-                for table, rows in content["rows"].items()}
-    except (ValueError, KeyError, TypeError) as error:
-        print(f"{path} cannot be read ({error}): {case.label} is run again", file=sys.stderr)
-        path.unlink()
+        content = content_of(case, folder)
+    except FileNotFoundError:
         return None
+    except ValueError as error:
+        print(f"{folder/case.key}.json cannot be read ({error}): {case.label} is run again", file=sys.stderr)
+        (folder/f"{case.key}.json").unlink(missing_ok=True)
+        return None
+    return {table: [{**row, "commit": content["commit"]} for row in rows]
+            for table, rows in content["rows"].items()}
 
 
 def seconds(case: Case, folder: Path) -> float:
     """CPU seconds that a finished case took."""
-    return float(json.loads((folder/f"{case.key}.json").read_text())["cpu_s"])
+    return content_of(case, folder)["cpu_s"]

@@ -16,7 +16,7 @@ import pandas as pd
 
 from studies.kit.case import Case
 from studies.kit.claim import Claim, judge, put_claims
-from studies.kit.csvfile import OtherTable
+from studies.kit.csvfile import OtherTable, locked
 from studies.kit.figure import Drawings, save
 from studies.kit.store import RESULTS, CannotRun, results
 from studies.kit.sweep import GO_ON, CasesFailed, NoSuchCase, Sweep, labelled, load
@@ -83,12 +83,16 @@ class Study(Part):
         cases : those of one's own that run in place of the study's.
 
         Raises NoSuchCase: No label contains ``only``. CasesFailed: Some did; what follows from the
-        others has been derived and written. CannotRun: The tables are as they were.
+        others has been derived and written. CannotRun: The tables are as they were. BlockingIOError: The
+        study runs in this folder already.
         """
         sweep = Sweep(study=self.name, tables=self.tables, size=size, out=out or results(size), **more)
-        tables, failed = sweep.run(cases or labelled(list(self.cases(size)), sweep.only, size))
-        if tables:
-            tables = sweep.put(self.derive(tables), derived=True)
+        chosen = cases or labelled(list(self.cases(size)), sweep.only, size)
+        busy = f"{self.name} runs in {shown(sweep.out)} already: let it end, or give another --out"
+        with locked(sweep.folder, busy):
+            tables, failed = sweep.run(chosen)
+            if tables:
+                tables = sweep.put(self.derive(tables), derived=True)
         if failed:
             raise failed
         return tables

@@ -19,7 +19,7 @@ from numba.core import event  # isort: skip
 
 from studies.kit.case import Case
 from studies.kit.csvfile import commit, cpu, put, read, versions
-from studies.kit.store import results, seconds
+from studies.kit.store import kept, results, seconds
 from studies.kit.table import check_size
 
 REPEATS = 7
@@ -103,7 +103,7 @@ def left(study: str, cases: Iterable[Case], size: str, out: Path) -> tuple[int, 
     That run is of the same size, or the longest that was measured; without any, estimates stay as they are.
     """
     every = {case.key: case for case in cases}
-    todo = [case.cost for key, case in every.items() if not (out/"raw"/study/f"{key}.json").exists()]
+    todo = [case.cost for case in every.values() if kept(case, out/"raw"/study) is None]
     times = read(out/"times.csv", COLUMNS) if (out/"times.csv").exists() else pd.DataFrame(columns=COLUMNS)
     runs = times.query("study == @study").sort_values("cpu_s")
     of_size = runs[runs["size"] == size]
