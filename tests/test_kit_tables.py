@@ -213,7 +213,7 @@ def test_claims_of_other_studies_stay(tmp_path):
     open_claim = Claim(id="d", source="RR98, Eq. 5", statement="smooth", undecidable="no number is printed")
     put_claims(path, judge([old[1], open_claim], Tables(), "rb"))
     frame = read(path)
-    names = "id source statement whose printed measured err low high verdict reason study formula "\
+    names = "id source statement whose printed fixed measured err low high verdict reason study formula "\
             "equation headline evidence"
     assert " ".join(frame.columns) == names
     assert list(frame.low.dropna()) == list(frame.low[frame.id.isin(["b", "z"])]) == [0.5, 0.5]

@@ -46,26 +46,26 @@ def next_to_limit(side: str) -> Value:
 
 TENTH = "a tenth is asked of predicted limits"
 LATTICES = (
-    Claim(id="khp95-hard-growth", source="KHP95 Sec. III", at_most=0.01,
+    Claim(id="own-hard-growth", source="KHP95 Sec. III", at_most=0.01,
           value=largest("growth", DIFFERENCE, err="measured_err/abs(predicted)"),
           statement="lattices that are not stable melt as lattice sums say: largest relative difference of "
                     "growth rates, ideal gas and van der Waals",
           because="1 %: motions of up to a hundredth of a spacing are linear to that"),
-    Claim(id="khp95-hard-pairing-onset", source="KHP95 Sec. VI, Fig. 10", at_most=0.1, because=TENTH,
+    Claim(id="own-hard-pairing-onset", source="KHP95 Sec. VI, Fig. 10", at_most=0.1, because=TENTH,
           value=largest("onsets", DIFFERENCE, err="measured_err/abs(predicted)", parameter="h"),
           statement="the range from which lattices are unstable, Monaghan's to pairing, is that of lattice "
                     "sums: largest relative difference"),
-    Claim(id="khp95-hard-clumping-onset", source="KHP95 Sec. IV, Eq. 2", at_most=0.1, because=TENTH,
+    Claim(id="own-hard-clumping-onset", source="KHP95 Sec. IV, Eq. 2", at_most=0.1, because=TENTH,
           value=largest("onsets", DIFFERENCE, err="measured_err/abs(predicted)", parameter="T"),
           statement="the temperature below which van der Waals lattices clump is that of lattice sums: "
                     "largest relative difference"),
-    Claim(id="khp95-hard-clumping-pressure", source="KHP95 Sec. IV, Eq. 2", expect=1, within=0.1,
+    Claim(id="own-hard-clumping-pressure", source="KHP95 Sec. IV, Eq. 2", expect=1, within=0.1,
           because=TENTH,
           value=largest("onsets", f"measured/({NO_PRESSURE})", err=f"measured_err/({NO_PRESSURE})",
                         parameter="T", rho=1.2),
           statement="particles clump from where the pressure is negative: temperature over that of P = 0, "
                     "density 1.2"),
-    Claim(id="khp95-hard-clumping-stable", source="KHP95 Sec. IV, Eq. 2", at_most=1,
+    Claim(id="own-hard-clumping-stable", source="KHP95 Sec. IV, Eq. 2", at_most=1,
           value=largest("onsets", f"measured/({SPINODAL})", err=f"measured_err/({SPINODAL})",
                         parameter="T", rho=1.2),
           statement="particles clump only where the van der Waals fluid itself is unstable: temperature over "
@@ -127,11 +127,10 @@ MOLECULES = (
 )
 
 SOUND = (
-    Claim(id="khp95-hard-sound-speed-square", source="KHP95 Sec. II", expect=1, within=0.01,
+    Claim(id="own-hard-sound-speed-square", source="KHP95 Sec. II", expect=1, within=0.01,
           value=farthest("sound_speeds", "speed", lattice="square"),
           statement="long sound on a square lattice has the speed of the fluid, h = 3 a: along x over the "
-                    "fluid's, the farthest off of three weights [asked after errors of order 1 had been "
-                    "seen]",
+                    "fluid's, the farthest off of three weights", after="errors of order 1 had been seen",
           because="1 %, what KHP95 have for the spurious shear modulus over the bulk modulus"),
 )
 CLAIMS = (*LATTICES, *PAIRS, *FREEZING, *MOLECULES, *SOUND)

@@ -170,11 +170,11 @@ def lines() -> Iterator[Claim]:
 CLAIMS = (
     *energies(),
     *lines(),
-    Claim(id="khp95-ke-10000-line", source="KHP95 Secs V, VI", printed="0.004 81",
+    Claim(id="own-ke-10000-line", source="KHP95 Secs V, VI",
           statement="0.004 81 is what the straight line in Ra^-1/2 through 1.2 to 4 times onset gives at Ra "
                     "10 000", value=questions.line(questions.reading(1e4, anew=True), low=1.2),
           **as_printed("ke-10000"), because=LAST),
-    Claim(id="khp95-ke-line-beyond", source="KHP95 Secs V, VI", printed="to four times that value",
+    Claim(id="own-ke-line-beyond", source="KHP95 Secs V, VI",
           statement="the line may be read at Ra 10 000 = 5.9 times onset: K over the line, less 1",
           value=limit(1e4)/questions.line(questions.reading(1e4), low=1.2) - 1, expect=0,
           within=LAST_DIGIT/number("ke-10000"), because=f"{LAST} of K at Ra 10 000"),
