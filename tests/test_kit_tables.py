@@ -222,6 +222,13 @@ def test_claims_of_other_studies_stay(tmp_path):
         ("speed", "z", "holds", "accepted 1 +- 0.5: one printed digit")]
 
 
+def test_a_claim_that_was_fixed_after_a_look_says_so_and_what_had_been_seen():
+    limits = {"expect": 1.0, "within": 0.5}
+    before, after = judge([claim(**limits), claim(after="two runs", **limits)], Tables(), "rb")
+    assert (before["fixed"], after["fixed"]) == ("before", "after")
+    assert after["reason"] == before["reason"] + "; asked after two runs"
+
+
 @pytest.mark.parametrize("value", [
     lambda frame: frame["ke"].max(), lambda frame: frame.ke.max(),
     lambda frame: frame.query("ke > 1")["ra"].max(),

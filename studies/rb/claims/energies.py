@@ -6,6 +6,7 @@ row. Claims on printed numbers compare with the grid's K as it is, as the paper 
 flow is right compare with the grid smoothed alike.
 """
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import partial
 from itertools import product
 
@@ -19,12 +20,32 @@ from studies.rb.claims.questions import ALIKE, PLAIN, against_alike, against_gri
 from studies.rb.tables import besides, particles
 
 WALLS = {"": ("printed", "mirror images"), "-fixed-rows": ("printed-fixed-rows", "fixed rows")}
+#: of mirror images, which the paper leaves open, and where they have been run beside the usual one
+READ = 10_000, "printed"
+READINGS = ("walls-own-pressure", "walls-odd")
 ENERGIES = {"": ("ke_field", "energy of the field"), "-particles": ("ke", "energy of the particles")}
 
 
 def error(ra: float, variant: str = "printed") -> Value:
     """|Kg/K - 1|, K of the grid smoothed alike."""
     return abs(against_alike(particles(ra, variant=variant)) - 1)
+
+
+def as_read(ra: float, variant: str, energy: str) -> Value:
+    """K of particles; of mirror images the error reaches to what other readings of them give.
+
+    The paper leaves open which pressure images carry, and whether their velocities are odd about the plate's.
+    Other readings have been run at Ra 10 000.
+    """
+    known = mean(particles(ra, variant=variant), energy)
+    if (ra, variant) != READ:
+        return known
+
+    def answer(tables: Tables) -> Measured:
+        value, err = known(tables)
+        others = [mean(particles(ra, variant=name), energy)(tables) for name in READINGS]
+        return Measured(value, max(err, *(abs(other.value - value) + other.err for other in others)))
+    return replace(known, answer=answer, text=f"{known}, or {', '.join(READINGS)}")
 
 
 def velocity(ra: float, height: int = 50, **where) -> Value:
@@ -70,14 +91,17 @@ def energies() -> Iterator[Claim]:
         for (wall, (variant, walls)), (whose, (energy, kind)) in product(WALLS.items(), ENERGIES.items()):
             said = f"5000 particles, Lucy, Ra {ra}, {walls}, {kind}"
             yield Claim(id=f"khp95-spam-ke-{ra}{whose}{wall}", source="KHP95 Sec. VI", printed=text,
-                        statement=f"K of {said}", value=mean(particles(ra, variant=variant), energy),
-                        **as_printed(f"ke-{ra}-spam"), because="half of the last printed digit")
+                        statement=f"K of {said}", value=as_read(ra, variant, energy),
+                        **as_printed(f"ke-{ra}-spam"), because=OPEN if (ra, variant) == READ else LAST)
             yield Claim(id=f"khp95-energy-error-{ra}{whose}{wall}", source="KHP95 Sec. VI", printed="10%",
                         at_most=0.105, statement=f"energy errors no worse than 10 %: {said}",
                         because=f"two digits are printed; {PLAIN}",
                         value=abs(against_grid(particles(ra, variant=variant), energy) - 1))
 
 
+LAST = "half of the last printed digit"
+OPEN = (f"{LAST}; the error reaches to what other readings of the images give, {' and '.join(READINGS)}: the "
+        "paper leaves open which one it took")
 FIVE = f'"about 5 %": half as much again; {PLAIN}'
 SOME = (f"{FIVE}; Ra of the points is not printed, near onset particles that start from weak rolls do not "
         "flow at all")
