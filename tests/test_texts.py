@@ -40,7 +40,7 @@ RB = Folder("rb")
 def said(number: Measured, scale: float = 100, sign: str = "") -> str:
     """As texts have it, in per cent, with the signs of a keyboard; `sign` "+" has a plus, too."""
     text = with_error(scale*number.value, scale*number.err).replace("\N{MINUS SIGN}", "-")
-    return sign*(number.value > 0) + text
+    return sign*bool(number.value > 0) + text
 
 
 def all_of(numbers, scale: float = 100) -> str:
