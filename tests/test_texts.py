@@ -2,13 +2,12 @@
 import re
 from collections.abc import Iterator
 
-import numpy as np
 import pytest
 
 from studies.kit.ask import one, per_seed
 from studies.kit.csvfile import read
 from studies.kit.key import ROOT
-from studies.kit.stats import Measured, over_seeds
+from studies.kit.stats import Measured
 from studies.kit.store import RESULTS
 from studies.kit.table import Tables
 from studies.rb.tables import Point, grid, particles, points
@@ -289,6 +288,6 @@ def test_sentences_have_the_numbers_of_the_tables(part):
 @pytest.mark.parametrize("path", TEXTS)
 def test_no_number_with_an_error_is_left_unchecked(path):
     text = words(path)
-    for sentence in [one for parts in TEXTS.values() for part in parts for one in part()]:
+    for sentence in [made for parts in TEXTS.values() for part in parts for made in part()]:
         text = text.replace(sentence, "")
     assert {*re.findall(ERROR, text)} <= OTHERS
