@@ -89,7 +89,7 @@ def test_a_changed_verdict_changes_its_lines_or_asks_for_other_words():
 
 @pytest.mark.parametrize(("line", "words"), [
     ({"at": "RR98 Eq. 5", "condition": "it rains"}, "'it rains' does not fit fails"),
-    ({"at": "RR98 Eq. 16"}, "condition '' does not fit"), ({"at": "RR98 Eq. 7"}, "has 0 claims that decide"),
+    ({"at": "RR98 Eq. 45"}, "condition '' does not fit"), ({"at": "RR98 Eq. 7"}, "has 0 claims that decide"),
     ({"at": "RR98 Eq. 5", "untested": "why?"}, "has 1 claims that decide"),
     ({"at": "RR98 Eq. 5", "why": "{rr98-eq5}"}, "no claim rr98-eq5,"),
     ({"at": "RR98 Eq. 5", "why": "`own-eq5`"}, "no claim own-eq5,"),

@@ -214,7 +214,7 @@ def test_claims_of_other_studies_stay(tmp_path):
     open_claim = Claim(id="d", source="RR98, Eq. 5", statement="smooth", undecidable="no number is printed")
     put_claims(path, judge([old[1], open_claim], Tables(), "rb"))
     frame = read(path)
-    names = "id source statement whose printed measured err low high verdict reason study formula "\
+    names = "id source statement whose printed fixed measured err low high verdict reason study formula "\
             "equation headline evidence"
     assert " ".join(frame.columns) == names
     assert list(frame.low.dropna()) == list(frame.low[frame.id.isin(["b", "z"])]) == [0.5, 0.5]
@@ -235,6 +235,13 @@ def test_studies_that_judge_at_once_keep_the_claims_of_each_other(tmp_path, monk
         list(pool.map(lambda name: put_claims(path, judge([claim(id=name, expect=1.0, within=0.5)], Tables(),
                                                           name)), names))
     assert list(read(path).study) == ["cost", "noise", "onset", "rb"]
+
+
+def test_a_claim_that_was_fixed_after_a_look_says_so_and_what_had_been_seen():
+    limits = {"expect": 1.0, "within": 0.5}
+    before, after = judge([claim(**limits), claim(after="two runs", **limits)], Tables(), "rb")
+    assert (before["fixed"], after["fixed"]) == ("before", "after")
+    assert after["reason"] == before["reason"] + "; asked after two runs"
 
 
 @pytest.mark.parametrize("value", [

@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 
 from studies.kit.case import Case
-from studies.kit.claim import COLUMNS, judge
+from studies.kit.claim import COLUMNS, judge, paper_of
 from studies.kit.csvfile import read
 from studies.kit.key import ROOT
 from studies.kit.study import Study
@@ -34,6 +34,15 @@ def kinds(study: Study) -> list[Case]:
 
 def test_the_question_is_one_sentence(study):
     assert study.question.strip().endswith("?") and len(study.question) < 140
+
+
+def test_ids_say_whose_statement_it_is_and_what_a_paper_or_another_author_prints_is_beside_it(study):
+    papers = ("KHP95", "RR98")
+    for claim in study.claims:
+        author, name = paper_of(claim.source), claim.id.split("-")[0]
+        known = {"paper": papers, "own": (author,), "other": {author} - {*papers}}[claim.whose]
+        assert author in known and (claim.whose != "paper" or name == author.lower()), claim.id
+        assert bool(claim.printed) == (claim.whose != "own"), claim.id
 
 
 @pytest.mark.parametrize("size", SIZES)

@@ -56,6 +56,7 @@ SMOOTHED = f"2 %: a weight of h = 3 a takes 1.5 % off the gradient of such a wav
 PERCENT = "1 %, the error at which resolutions are compared in this repository"
 LIMIT = "0.3 %, as for other limits of second order here"
 EXTRAPOLATED = "the error is the difference of two extrapolations"
+CONSTANTS = "with a and b constants"
 ACRIVOS = "Sangani & Acrivos 1982, Table 1"
 SLIDE = partial(Claim, source="RR98 Sec. IV", printed="can be used")
 CONSERVED = partial(Claim, printed=BY_CONSTRUCTION, **SAME)
@@ -79,18 +80,18 @@ FIXED = (
           statement="without forms symmetric in ij momentum is lost: P_ij + P_ij for point i in place of "
                     "P_ij + P_ji, change over the sum of its sizes in 10 000 steps, or until shortly before "
                     "a run diverges, mean of 24 random starts on a line"),
-    Claim(id="rr98-conservation-plates-gravity", source="RR98 Sec. III A", **SAME,
+    Claim(id="own-conservation-plates-gravity", source="RR98 Sec. III A", **SAME,
           value=largest("drift", "energy", err="err", mode="ideal", wall="plates, gravity"),
           statement="energy with that of height is conserved between plates without friction under gravity: "
                     "relative change in 10 000 steps"),
-    *(Claim(id=f"rr98-conservation-survival-{name}", source="RR98 Eqs 34-36", value=survival(maker, points),
+    *(Claim(id=f"own-conservation-survival-{name}", source="RR98 Eqs 34-36", value=survival(maker, points),
             **ALL,
             statement=f"the brackets {edges} carry a random start through 10 000 steps on {where}: share of "
                       "the steps before divergence")
       for name, maker, points, edges, where in (
           ("jittered", "plain", "jittered-0.3", "with plain quadrature", "points jittered by 0.3 a"),
           ("delaunay", "delaunay", "random", "over Delaunay edges", "random points"))),
-    *(Claim(id=f"rr98-conservation-moving-{name}", source="RR98 Sec. III B", value=kept(name, "moving"),
+    *(Claim(id=f"own-conservation-moving-{name}", source="RR98 Sec. III B", value=kept(name, "moving"),
             **SAME,
             statement=f"points can move and keep {name}: largest relative change in 10 000 steps of volumes, "
                       "masses, momenta and energies exchanged over faces") for name in CLAIMED),
@@ -108,12 +109,12 @@ MOVING = (
           statement="points that move with v under Eqs 34-36: speed of long sound over c, Wendland C2, h = "
                     "4 a",
           because=f"2 %: extrapolated from wavelengths of 24 and 32 a; {EXTRAPOLATED}"),
-    Claim(id="rr98-eq39-sound-factor", source="RR98 Eqs 34-36, 39", expect=sqrt(2), within=0.01,
+    Claim(id="own-eq39-sound-factor", source="RR98 Eqs 34-36, 39", expect=sqrt(2), within=0.01,
           value=one("long_sound", "speed", motion="literal", weight="WendlandC2"),
           statement="volumes dV that stay while points move add 2 P grad(n dV) to the force: long sound of "
                     "the literal motion is sqrt(1 + 2/gamma) c, Wendland C2, h = 4 a",
           because=f"1 %: 0.3 % from sums over the lattice, and the next order in h/lambda; {EXTRAPOLATED}"),
-    Claim(id="rr98-eq39-sound-factor-lucy", source="RR98 Eqs 34-36, 39", expect=sqrt(2), within=0.01,
+    Claim(id="own-eq39-sound-factor-lucy", source="RR98 Eqs 34-36, 39", expect=sqrt(2), within=0.01,
           value=one("long_sound", "speed", motion="literal", weight="Lucy"),
           statement="the factor of long sound in literal motion, sqrt(1 + 2/gamma), with Lucy's weight, h = "
                     "3 a",
@@ -136,13 +137,13 @@ MOVING = (
             statement=f"what is added to the change of {name} is v.grad of it: over the exact one, lattice, "
                       "wavelength 32 a")
       for n, name in zip((46, 47, 48), SUMS, strict=True)),
-    Claim(id="rr98-eq46-conserves", source="RR98 Eq. 46", at_most=1e-12,
+    Claim(id="own-eq46-conserves", source="RR98 Eq. 46", at_most=1e-12,
           value=one("drift", "mass", mode="convective, RK4"),
           statement="mass is conserved with Eq. 46: largest relative drift in 1e4 steps, stirred gas, "
                     "jittered points",
           because="what is exchanged is not symmetric in i and j, so that more than round-off is lost; "
                   f"{ALONE}"),
-    Claim(id="rr98-eq46-carried", source="RR98 Eqs 46-48", at_most=1e-6, value=changed("carried, RK4"),
+    Claim(id="own-eq46-carried", source="RR98 Eqs 46-48", at_most=1e-6, value=changed("carried, RK4"),
           statement="Eqs 46-48 on volumes that grow with div v lose nothing but the error of time steps: "
                     "largest relative drift of mass, momentum, energy in 1e4 steps",
           because="RK4 at omega dt = 0.3: (omega dt)^5 times the amplitudes squared, some 100 steps long; "
@@ -163,19 +164,21 @@ MOVING = (
           statement="Eq. 49 leaves out what Eqs 46-48 bring at large Reynolds numbers: difference of "
                     "accelerations over the largest, without viscosity",
           because=f"a per cent would limit its use; {ALONE}"),
-    Claim(id="rr98-eq49-sound", source="RR98 Eq. 49", expect=1, within=0.01,
+    Claim(id="rr98-eq49-sound", source="RR98 Eq. 49", printed="a correct continuum limit", expect=1,
+          within=0.01,
           value=one("long_sound", "speed", motion="constant-mass", weight="WendlandC2"),
           statement="constant mass, volumes that follow the flow: speed of long sound over c, Wendland C2, "
                     "h = 4 a",
           because=f"1 %: 0.5 % from sums over the lattice, and the next order in h/lambda; {EXTRAPOLATED}"),
-    Claim(id="rr98-eq49-conserves", source="RR98 Eq. 49", value=changed("constant-mass, RK4"), **STEPS,
+    Claim(id="own-eq49-conserves", source="RR98 Eq. 49", value=changed("constant-mass, RK4"), **STEPS,
           statement="constant mass: largest relative drift of mass, momentum, energy over 1e4 steps"),
-    Claim(id="rr98-eq50-sum-zero", source="RR98 Eq. 50", expect=1, within=0.02, headline=True,
+    Claim(id="rr98-eq50-sum-zero", source="RR98 Eq. 50", printed=CONSTANTS, expect=1, within=0.02,
+          headline=True,
           value=one("brackets", "force", a=1, b=-1),
           statement="a = 1, b = -1, smoothed particles with their own masses: force over -grad P, wave "
                     "without entropy of 32 a",
           because=SMOOTHED),
-    Claim(id="rr98-eq50-any", source="RR98 Eq. 50", at_most=0.02, headline=True,
+    Claim(id="rr98-eq50-any", source="RR98 Eq. 50", printed=CONSTANTS, at_most=0.02, headline=True,
           value=largest("brackets", "abs(force - 1)", "a + b != 0"),
           statement="any constants a and b make Eq. 49 the momentum equation where volumes follow the flow: "
                     "largest error of the force over -grad P for a + b other than 0", because=SMOOTHED),
@@ -199,17 +202,18 @@ BODIES = (
           because="0.15: at 16 rows, a seventh of a radian to the spacing, the next order is a tenth of the "
                   "error"),
     Claim(id="rr98-frozen-body", source="RR98 Sec. IV", at_most=0.01, value=drag_error("frozen", 0.1),
+          printed="simulate a rigid body",
           headline=True, evidence="conservation/drag.png",
           because=PERCENT,
           statement="'freezing' a number of points simulates a rigid body: |error| of the drag of a "
                     "cylinder in a square array, solid fraction 0.1, lattice points within the circle "
                     "frozen, 17 spacings across"),
-    *(Claim(id=f"own-bodies-surface-{c:g}", source=ACRIVOS, printed=printed, value=drag_error("surface", c),
-            at_most=0.01, because=PERCENT,
+    *(Claim(id=f"sangani-acrivos-surface-{c:g}", source=ACRIVOS, printed=printed,
+            value=drag_error("surface", c), at_most=0.01, because=PERCENT,
             statement="points on the surface, Delaunay edges: |error| of the drag, solid "
                       f"fraction {c:g}, {across} spacings across")
       for c, printed, across in ((0.1, "24.83", 17), (0.3, "102.90", 30))),
-    *(Claim(id=f"own-bodies-limit-{c:g}", source=ACRIVOS, printed=printed, expect=0, within=0.003,
+    *(Claim(id=f"sangani-acrivos-limit-{c:g}", source=ACRIVOS, printed=printed, expect=0, within=0.003,
             because=LIMIT, value=one("drag_limits", "error", variant="surface", fraction=c),
             statement="points on the surface: drag extrapolated to infinitely fine points against print, "
                       f"relative, solid fraction {c:g}") for c, printed in ((0.1, "24.83"), (0.3, "102.90"))),

@@ -38,15 +38,16 @@ COST = {"by": "cpu_s", "err": "high - cpu_s", "level": 0.01}
 CHEAPEST = first("needed", "cpu_s", REACHED, method=FIXED, **COST, **K)
 
 
-def no_dearer(name: str, where: dict[str, str], words: str, rival: str = GRID) -> Claim:
+def no_dearer(name: str, where: dict[str, str], words: str, rival: str = GRID, after: str = "") -> Claim:
     """Of points with edges to nearest neighbours, in another flow than that which was asked about first."""
     return Claim(id=f"own-speed-fixed-points-{name}", source="RR98 Sec. III", at_most=2,
                  value=seconds(NEAREST, where)/seconds(rival, where),
-                 because="the factor asked for in convection at Ra 10 000",
+                 because="the factor asked for in convection at Ra 10 000", after=after,
                  statement=f"fixed points are no dearer than a grid {words}: CPU seconds of {NEAREST} for "
                            f"1 % in {where['quantity']} over those of {rival}")
 
 
+TIMES = "the grid's times had been seen"
 ASKED = "asked for before it had been raced"
 POINTS = "points that move with their triangulation"
 
@@ -62,8 +63,9 @@ def carried(name: str, where: dict[str, str], rival: Value, at_most: float, word
 def two(name: str, method: str, at_least: float, because: str, words: str, printed: str = "") -> Claim:
     """How much faster two threads are than one, at the largest number of particles."""
     most = {"by": "most", "method": method, "what": "two threads"}
-    return Claim(id=f"own-speed-threads-{name}", source="KHP95 Sec. I", at_least=at_least, because=because,
-                 printed=printed, value=last("growth_laws", "value", "most >= 1e5", **most),
+    return Claim(id=f"{'khp95' if printed else 'own'}-speed-threads-{name}", source="KHP95 Sec. I",
+                 at_least=at_least, because=because, printed=printed,
+                 value=last("growth_laws", "value", "most >= 1e5", **most),
                  statement=f"{words} are easily computed in parallel: time that passes with one thread over "
                            "that with two, at the largest number of particles")
 
@@ -88,43 +90,43 @@ CLAIMS = (
                     "steady state of Rayleigh-Benard at Ra 10 000 with 1 % in K, the cheapest fixed "
                     "points' over the compressible grid's"),
     no_dearer("5000", LOWER_K, "at Ra 5000, where their errors of K happen to cancel"),
-    no_dearer("5000-velocity", LOWER, "at Ra 5000 [asked after errors of K had been seen to cancel]"),
-    no_dearer("vortex", VORTEX, "in a Taylor-Green vortex [asked after the grid's times had been seen]"),
-    no_dearer("sound", SOUND, "in a sound wave [asked after the grid's times had been seen]"),
+    no_dearer("5000-velocity", LOWER, "at Ra 5000", after="errors of K had been seen to cancel"),
+    no_dearer("vortex", VORTEX, "in a Taylor-Green vortex", after=TIMES),
+    no_dearer("sound", SOUND, "in a sound wave", after=TIMES),
     no_dearer("staggered", VORTEX, "in a Taylor-Green vortex, a staggered one, whose friction is between "
-              "nearest neighbours, too [asked after both had been seen]", PYPDE),
+              "nearest neighbours, too", PYPDE, "both had been seen"),
     Claim(id="own-speed-moving-points", source="RR98 Sec. III", at_most=10, because="an order of magnitude",
           value=seconds(MOVING, K)/seconds(GRID, K),
           statement="points that move and exchange over closed faces cost less than ten grids: CPU seconds "
                     "for 1 % in K over those of the compressible grid"),
-    Claim(id="own-speed-particles", source="KHP95 Sec. VII", printed="economically desirable", at_most=1,
+    Claim(id="khp95-speed-particles", source="KHP95 Sec. VII", printed="economically desirable", at_most=1,
           headline=True, evidence="cost/work_precision.png",
           value=one("rivals", "seconds", **K), because="as cheap as the grid that the paper compares with",
           statement="smooth particles are economical: CPU seconds of the printed scheme, at its least "
                     "error in K at Ra 10 000, over those of the compressible grid with that error (the "
                     "coarsest one if it is better)"),
-    Claim(id="own-speed-freedoms", source="KHP95 Sec. VII", printed="many fewer degrees of freedom",
+    Claim(id="khp95-speed-freedoms", source="KHP95 Sec. VII", printed="many fewer degrees of freedom",
           value=first("rivals", "points", by="points"), at_most=0.5, because="half at most: many fewer",
           statement="in some cases particles need many fewer degrees of freedom than equally accurate "
                     "grids: particles of the printed scheme over points of a grid with the same error, "
                     "least ratio over all scenes"),
-    *(Claim(id=f"own-speed-growth-{name}", source=source, printed=printed, at_most=N_LN_N,
+    *(Claim(id=f"{whose}-speed-growth-{name}", source=source, printed=printed, at_most=N_LN_N,
             value=growth(method),
             because="N ln N over three decades has the exponent 1 + log10(2)/3 = 1.100",
             statement=f"a step{of} takes a time no worse than N ln N: exponent of its CPU seconds over a "
                       f"thousand to a million {who}")
-      for name, method, source, printed, of, who in (
-          ("spam", LUCY, "KHP95 Sec. II", "N ln N", "", "smooth particles, lists included"),
-          ("fixed", LATTICE, "RR98 Sec. III", "", " over stored edges", "fixed points"),
-          ("carried", CARRIED, "RR98 Sec. III", "", " with flips", POINTS))),
+      for whose, name, method, source, printed, of, who in (
+          ("khp95", "spam", LUCY, "KHP95 Sec. II", "N ln N", "", "smooth particles, lists included"),
+          ("own", "fixed", LATTICE, "RR98 Sec. III", "", " over stored edges", "fixed points"),
+          ("own", "carried", CARRIED, "RR98 Sec. III", "", " with flips", POINTS))),
     two("spam", LUCY, 1.7, "85 % of what two cores can give", "smooth particles", printed="straightforward"),
     #: RR98's r0, the rms width of Lucy's weight, is 1.27, 0.85, 0.51 spacings for h = 3, 2, 1.2
-    *(Claim(id=f"rr98-speed-points-{name}", source="RR98 Sec. IV", printed=printed, at_least=1,
+    *(Claim(id=f"{whose}-speed-points-{name}", source="RR98 Sec. IV", printed=printed, at_least=1,
             value=points(method)/points(GRID), because="as many",
             statement="one needs more particles than points in a grid, for Eq. 45: points of a lattice "
                       f"with {h} the spacing, over those of the compressible grid, each with 1 % error in K "
                       "of Rayleigh-Benard at Ra 10 000")
-      for name, method, h, printed in (
-          ("wide", WIDE, "h = 3 a, r0 = 1.27 a above", "more particles than points in a grid"),
-          ("nearest", NEAREST, "h = 1.2 a, r0 = 0.51 a below", ""))),
+      for whose, name, method, h, printed in (
+          ("rr98", "wide", WIDE, "h = 3 a, r0 = 1.27 a above", "more particles than points in a grid"),
+          ("own", "nearest", NEAREST, "h = 1.2 a, r0 = 0.51 a below", ""))),
 )

@@ -14,7 +14,7 @@ from studies.hardcases.high_ra import FineGrid, HighRa, Rippled, Steadiness
 from studies.hardcases.largest_step import Limit
 from studies.hardcases.printed import Interface, Square
 from studies.hardcases.survival import GRID, PROBES, Hard, HardOnGrid, Probe
-from studies.hardcases.tubes import ETAS, MethodTube
+from studies.hardcases.tubes import BARELY, ETAS, STEPS, MethodTube
 from studies.kit.case import Case
 
 LATTICE, JITTERED = "fixed-lattice", "fixed-jittered-delaunay"
@@ -136,9 +136,12 @@ def smooth_tubes(lengths: Sequence[int], etas: Sequence[float], seeds: Iterable[
 
 
 def method_tubes(lengths: Sequence[int], seeds: int) -> Iterator[Case]:
-    """All methods, viscosities, lengths; several seeds of disordered points in the most viscous gas."""
+    """All methods, viscosities, lengths; several seeds of disordered points in the most viscous gas, and
+    of the longest tube that may ring.
+    """
     for (method, (tube, chosen)), eta, step, L in product(IN_TUBES.items(), ETAS, tubes.STEPS, lengths):
-        last = seeds if method in RANDOM and eta == max(ETAS) else 1
+        several = eta == max(ETAS) or (eta, L, step) == (BARELY, max(lengths), max(STEPS))
+        last = seeds if method in RANDOM and several else 1
         for seed in range(1, last + 1):
             yield MethodTube(method=method, tube=tube, variant=chosen, eta=eta, L=L, seed=seed, step=step,
                              keep=L == max(lengths) and seed == 1)

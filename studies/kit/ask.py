@@ -186,6 +186,13 @@ def farthest_per(columns: str | Sequence[str], value: Value, centre: float = 1.0
     return one_per(farthest_from(centre), columns, value)
 
 
+def per_seed(value: Value) -> Value:
+    """Mean of what a question gives for each seed; its error is that of their scatter."""
+    def answer(tables: Tables) -> Measured:
+        return stats.over_seeds([seed.value for seed in each("seed", value, tables)])
+    return Value(answer, f"mean over seeds of {value}", value.asks)
+
+
 def one_of(pick: Pick, values: Sequence[Value]) -> Value:
     """The answer to one of several questions."""
     asks = tuple(chosen for value in values for chosen in value.asks)

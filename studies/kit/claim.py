@@ -7,7 +7,9 @@ With measured value m, its 95 % interval [m - err, m + err] and the accepted ran
 - ``undecidable``  a limit of the range lies in the interval, or nothing could be measured.
 
 A point estimate inside the range is not enough for ``holds``: with a large error bar it would hold by
-ignorance. This way either verdict is wrong in 2.5 % of cases at most, and more computing decides.
+ignorance. This way either verdict is wrong in 2.5 % of cases, and more computing decides, if the range, the
+seeds and the window were fixed before the first look and the interval is one of chance. Of claims that were
+``fixed`` after a look nothing of the kind is known: what was seen may have chosen what is asked.
 """
 import math
 import re
@@ -23,10 +25,12 @@ from studies.kit.stats import CannotTell, Measured
 from studies.kit.table import Row, Tables
 from studies.kit.value import Value, WrongQuestion
 
-COLUMNS = ("id", "source", "statement", "whose", "printed", "measured", "err", "low", "high", "verdict",
-           "reason", "study", "formula", "equation", "headline", "evidence")
+COLUMNS = ("id", "source", "statement", "whose", "printed", "fixed", "measured", "err", "low", "high",
+           "verdict", "reason", "study", "formula", "equation", "headline", "evidence")
 #: of columns, in the head of the file
-MEANING = ("whose: a statement that the paper prints, or our own about the same equation",
+MEANING = ("whose: a statement that the paper prints, or another author, or our own about the same equation "
+           "or scene; the id begins so",
+           "fixed: whether range, seeds and window were fixed before the first look or after one",
            "formula: the question that the claim puts to the tables of its study, as in studies/kit/ask.py",
            "equation: the equations, figures or tables that the source names, else its sections",
            "headline: those of them whose verdict, in equations.md, this claim decides, alone or with others",
@@ -103,12 +107,13 @@ def listed(several: Iterable[Cited]) -> str:
 
 @dataclass(frozen=True, kw_only=True)
 class Claim:
-    """One statement, testable or not: a paper's, with what is ``printed``, or our own.
+    """One statement, testable or not: a paper's or another author's, with what is ``printed``, or our own.
 
     ``value(tables)`` gives (value, err), err the half width of the 95 % interval. Accepted is ``expect`` +-
     ``within``, or ``at_least``, or ``at_most``, or both of these; ``because`` says where these limits come
     from. What cannot be tested has ``undecidable="reason"`` in their place.
 
+    ``after`` : what had been seen before the range, the seeds or the window were fixed; empty if nothing.
     ``headline`` : True if it decides the verdict of all that its source names, or of which: "Eqs 34, 35".
     ``evidence`` : a figure, or a table that ``value`` does not ask, in results/: "operators/growth.png".
     """
@@ -123,6 +128,7 @@ class Claim:
     at_least: float = -math.inf
     at_most: float = math.inf
     because: str = ""
+    after: str = ""
     undecidable: str = ""
     headline: bool | str = False
     evidence: str = ""
@@ -148,6 +154,11 @@ class Claim:
         if pair == 1 or (pair == 2) == sided or not self.low <= self.high:
             raise ValueError(f"it accepts [{self.low}, {self.high}]: give expect= with within= >= 0, or "
                              "at_least=, or at_most=, or both of these")
+
+    @property
+    def whose(self) -> str:
+        """As its id begins: of the paper, "own" or of another author."""
+        return {"khp95": "paper", "rr98": "paper", "own": "own"}.get(self.id.split("-")[0], "other")
 
     @property
     def places(self) -> tuple[Cited, ...]:
@@ -215,8 +226,8 @@ def row(claim: Claim, tables: Noting, study: str) -> Row:
     formula = str(claim.value) if isinstance(claim.value, Value) else ""
     tested = {"low": claim.low, "high": claim.high, "formula": formula} if claim.value else {}
     return {"id": claim.id, "source": claim.source, "statement": claim.statement, "printed": claim.printed,
-            "whose": "paper" if claim.printed else "own", "study": study, **tested, **said,
-            "equation": listed(claim.places), "headline": listed(claim.decides),
+            "whose": claim.whose, "fixed": "after" if claim.after else "before", "study": study, **tested,
+            **said, "equation": listed(claim.places), "headline": listed(claim.decides),
             "evidence": "; ".join(filter(None, files))}
 
 
@@ -240,8 +251,9 @@ def judged(claim: Claim, tables: Tables, study: str = "") -> Row:
         raise
     said = verdict(claim, value, err)
     limit = "a limit lies within the error: "*(said == "undecidable")
+    looked = f"; asked after {claim.after}"*bool(claim.after)
     return {"measured": value, "err": err, "verdict": said,
-            "reason": f"{limit}{claim.accepted}: {claim.because}"}
+            "reason": f"{limit}{claim.accepted}: {claim.because}{looked}"}
 
 
 def put_claims(path: Path, rows: Sequence[Row]) -> None:

@@ -34,6 +34,8 @@ KE = 4e-4           # of rolls of finite energy
 #: scenes, whose Ra is set by the case
 LAYER = RayleighBenard(ra=1700.0)
 SQUARE = replace(LAYER, aspect=1.0, sides=Walls())
+#: of the other law and of a small difference of temperature
+OTHERS = (replace(LAYER, transport=ConstNu), replace(LAYER, T_hot=1.05, T_cold=0.95))
 THEORY = LinearTheory(ras=tuple(sorted({*NEAR, *STRONG})), pr=PR)
 
 
@@ -61,12 +63,14 @@ def cases(size: str) -> list[Case]:
     lines, shares = ((12, 16, 24), LINES[0.5][1::2]) if quick else ((30, 40, 50, 60), SHARES)
     energies = (OnsetEnergies(scene=box, rows=rows, shares=shares)
                 for rows, box in product(lines, (LAYER, SQUARE)))
+    others = (OnsetEnergies(scene=box, rows=rows, shares=LINES[0.5])        # lines as the paper draws them
+              for rows, box in product(lines[:3], () if quick else OTHERS))
     strong = (GrowthRun(scene=replace(LAYER, ra=ra), rows=16 if quick else 32, ke=KE)
               for ra in STRONG[::2 if quick else 1])
     rolls = [particles(16, seeds=(1,), every=2)] if quick else [particles(25)]
     if size == "fine":
         rolls += [particles(rows) for rows in (16, 35, 50)]
-    return [THEORY, *growth(grids, differences), *energies, *strong, *chain(*rolls)]
+    return [THEORY, *growth(grids, differences), *energies, *others, *strong, *chain(*rolls)]
 
 
 PART = Part(cases=cases, tables=ALL, derive=derive, figures=FIGURES, claims=ONSET_CLAIMS)

@@ -17,6 +17,7 @@ H = (1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 6.0)
 #: on a lattice, where each has a factor of its own: between these, to have a range every half spacing
 BETWEEN = (3.5, 4.5, 5.0, 5.5)
 SEEDS = (1, 2, 3)
+MORE = tuple(range(4, 10))      # of gradients with the widest weight, which three seeds left undecided
 RANGES = H[:-1]     # of the flows
 IRREGULAR = ("jittered-0.3", "random", "relaxed")
 #: irregular points with triangles that end on rows of points on the plates
@@ -36,7 +37,10 @@ def cases(size: str) -> list[Case]:
     if size == "quick":
         waves = {"lattice": (16, 32), "jittered-0.3": (16, 32)}
         return [*surface(waves), *forms((1.2, 3.0), ("jittered-0.3",)), *quick_flows()]
-    return [*surface(WAVES), *forms(H, ("lattice", *IRREGULAR)), *vortices(), *layers()]
+    wide = (runs.GradientForms(disorder=DISORDERS["jittered-0.3"], h=6.0, wavelength=WAVE, seed=seed)
+            for seed in MORE)
+    return [*surface(WAVES), *forms(H, ("lattice", *IRREGULAR)), *forms((5.0,), IRREGULAR[:1]), *wide,
+            *vortices(), *layers()]
 
 
 def surface(waves: Mapping[str, Sequence[int]]) -> Iterator[Case]:

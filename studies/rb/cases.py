@@ -189,6 +189,7 @@ def fine() -> Iterator[Case]:
     yield gas(67150.0, (32, 48), **hot, **DENSE)
     for ra, rows in product((5e4, 2e5), (50, 100)):
         yield CompressibleApproach(scene=RayleighBenard(ra=ra), rows=rows, t_end=2.1*ra**0.5)    # 2.1 L^2/eta
+    yield gas(3000.0, (16, 24, 32), form="paper-form", longest=20.0, **DENSE)
     yield CompressibleApproach(scene=RayleighBenard(ra=3e3, **DENSE), rows=24, t_end=22*(3000/1.5)**0.5)
 
 

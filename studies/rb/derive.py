@@ -78,7 +78,7 @@ def grid_limit(group: pd.DataFrame, name: str) -> Measured:
 
 def line_limit(group: pd.DataFrame, name: str) -> Measured:
     """Value at 1/rows = 0 of c + c_2/rows^2 through all runs, with c_3/rows^3 over a wide range of rows; its
-    error: of the fit, and twice what the coarsest change.
+    error: of the fit, of the runs, and twice what the coarsest change.
 
     K of sets of points scatters as 1/rows^2 or faster, 0.6 % to 0.04 % from 25 to 50 rows: hence weights of
     rows^2. One scatter stands for all that is left over, which three runs of one size tell badly. A lattice
@@ -87,7 +87,7 @@ def line_limit(group: pd.DataFrame, name: str) -> Measured:
     sizes, y = group.resolution.to_numpy(float), group[name].to_numpy(float)
     powers, weight, finer = np.array([0, 2, 3]), sizes**2, sizes > sizes.min()
     X = (1/sizes[:, None])**(powers if sizes.max() > COARSEST*sizes.min() else powers[:2])
-    limit = fits.linear(X, y, weight=weight).intercept
+    limit = fits.linear(X, y, weight=weight, err=group[f"{name}_err"]).intercept
     without, *_ = np.linalg.lstsq((weight[:, None]*X)[finer], (weight*y)[finer])[0]
     return limit + Measured(0.0, 2*(limit.value - without))
 

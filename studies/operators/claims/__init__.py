@@ -86,8 +86,9 @@ KERNELS = (
           because="extrapolated in the spacing to 4e-5",
           statement="sign and size of the pressure's kernel: its projection on -(dP/drho) grad rho - (dP/dT) "
                     "grad T, extrapolated to no spacing, less 1"),
-    *(Claim(id=f"rr98-eq16-trace-{d}d", source="RR98 Eqs 16, 37", printed="2/3"*(d == 3), expect=0,
-            within=1e-9, value=number(f"dilation in {d}D"), headline="Eq. 16",
+    *(Claim(id=f"{'rr98' if d == 3 else 'own'}-eq16-trace-{d}d", source="RR98 Eqs 16, 37",
+            printed="2/3"*(d == 3), expect=0, within=1e-9, value=number(f"dilation in {d}D"),
+            headline="Eq. 16"*(d == 3),
             because="round-off of sums over a lattice",
             statement=f"a uniform dilation in {d}D meets the bulk viscosity only: what the trace factor 2/3 "
                       "adds to zeta, over eta")
@@ -107,6 +108,7 @@ DISCRETE = (
               statement="v_i stands for v dV: rate of the mass by Eq. 34 over -div(rho v) dV where dV = 1/4; "
                         "it is dV"),
     literally("eq26-field-velocity", "Eq. 26", "mass, v_i = v",
+              printed="the field velocity becomes the velocity",
               statement="v_i must be the field velocity itself: rate of the mass by Eq. 34 with it over "
                         "-div(rho v) dV where dV = 1/4"),
     literally("eq26-momentum", "Eqs 26, 35", "momentum, p_i = m_i v_i, v_i = v dV", printed="p_i = m_i v_i",
@@ -114,7 +116,8 @@ DISCRETE = (
                         "convects over -div(rho v v) dV where dV = 1/4; it is dV^2"),
     literally("eq27-pressure", "Eq. 27", "pressure, P_ij = P dV", printed="P dV", headline=True,
               statement="with P_ij = P dV the force in Eq. 35 is -grad P dV: their ratio where dV = 1/4"),
-    Claim(id="rr98-eq28-sums", source="RR98 Eq. 28", at_most=0.02, headline=True,
+    Claim(id="rr98-eq28-sums", source="RR98 Eq. 28", printed="summing over cells directly", at_most=0.02,
+          headline=True,
           value=largest("lattice", "abs(value/predicted - 1)", how="plain", weight="Lucy", r0=6.0),
           because="steps of a/h = 1/6 in a smooth integrand leave less than (a/h)^2",
           statement="sums over cells times dV stand for integrals: first moment of Lucy's weight on "
@@ -129,11 +132,11 @@ DISCRETE = (
           because="one per cent is what a < r0 < lambda by such margins would promise",
           statement="a < r0 < lambda gives good gradients with the exponential weight: least error over r0 = "
                     "2 to 8 a of a wave of 128 a, 2D, plain sums"),
-    Claim(id="rr98-eq31-wave-mended", source="RR98 Eqs 31, 45", at_most=0.01, because="as without mending",
+    Claim(id="own-eq31-wave-mended", source="RR98 Eqs 31, 45", at_most=0.01, because="as without mending",
           value=least("exponential", "renormalised", d=2, wavelength=128.0),
           statement="with the discrete first moment made right the exponential weight gives good gradients: "
                     "least error over r0 = 2 to 8 a of a wave of 128 a, 2D"),
-    Claim(id="rr98-eq32-factor-3d", source="RR98 Eqs 29, 32", expect=1, within=0.02,
+    Claim(id="own-eq32-factor-3d", source="RR98 Eqs 29, 32", expect=1, within=0.02,
           value=one("lattice", "value/predicted", how="printed", weight="Exponential", d=3, r0=4.0, n=1),
           because="sums over a lattice stand for integrals to 2 % at r0 = 4 a",
           statement="the printed discretisation of the exponential weight multiplies gradients in 3D by (4 "
@@ -155,7 +158,8 @@ DISCRETE = (
           because="extrapolated in a/r0; (a/r0)^2/12 is left",
           statement="all moments but the zeroth are well defined: largest relative difference of M_1 to M_4 "
                     "along a line and the integrals, r0 = 4 and 8 a extrapolated"),
-    literally("eq33-direction", "Eq. 33", "divergence, Eq. 33 in Eq. 1", headline=True,
+    literally("eq33-direction", "Eq. 33", "divergence, Eq. 33 in Eq. 1", printed="(r_i - r_j)/|r_i - r_j|",
+              headline=True,
               statement="with e_ij from j to i, -sum_j W e_ij A_j is grad A, as Eq. 1 has it: projection on "
                         "the exact gradient of a wave"),
 )

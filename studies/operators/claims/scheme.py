@@ -8,6 +8,7 @@ from studies.kit.table import Tables
 
 EDGES = "round-off: sums of some 30 terms, edges from solves with a condition number of 1e3"
 CLOSED = ("closed", "exact", "delaunay")
+TO_SECOND = "correct up to second order"
 NEXT = "the next order, (k h)^4, takes 0.01 to 0.03 of the slope at these wavelengths"
 LONG = "twice the 0.4 % that the gradient loses of a wave 64 spacings long"
 SECOND = "second order; the next one, (h/lambda)^4, changes slopes over 16 to 64 spacings by 0.02"
@@ -75,8 +76,9 @@ def shear(name: str, points: str, norm: str, words: str, printed: str = "",
           because: str = "second order, as on the lattice") -> Claim:
     """A flow between plates; its name begins with that of the flow."""
     flow = name.split("-")[0]
-    return Claim(id=f"rr98-transport-{name}", source="RR98 Sec. III A", printed=printed, expect=2, within=0.1,
-                 because=because, headline=flow == "couette", evidence="operators/shear.png",
+    return Claim(id=f"{'rr98' if printed else 'own'}-transport-{name}", source="RR98 Sec. III A",
+                 printed=printed, expect=2, within=0.1, because=because,
+                 headline=flow == "couette", evidence="operators/shear.png",
                  value=one("shear_orders", "order", flow=flow, points=points, time=0.1, norm=norm),
                  statement=f"{flow.capitalize()} flow from rest between {words}: order of its {norm} error "
                            "in 1/rows at 0.1 H^2/nu")
@@ -84,6 +86,7 @@ def shear(name: str, points: str, norm: str, words: str, printed: str = "",
 
 BRACKETS = (
     *(Claim(id=f"rr98-eq{n}-order-2d", source=f"RR98 Eqs {n - 24}, {n}", expect=2, within=0.05, because=NEXT,
+            printed=TO_SECOND,
             value=order(what, 2), headline=True,
             statement=f"the discrete equation for {what}, stress and heat current nested with the trace "
                       "factor 2/d, is right to second order in 2D on a lattice: slope of the error against "
@@ -94,26 +97,26 @@ BRACKETS = (
           statement="mass, momentum and energy are conserved by construction: largest loss over what is "
                     "exchanged, six makers of edges, nested, printed and pairwise transport, lattice, "
                     "jittered and random points, 1 to 3 dimensions"),
-    Claim(id="rr98-eq35-rest", source="RR98 Eq. 35", at_most=1e-12, because=EDGES,
+    Claim(id="own-eq35-rest", source="RR98 Eq. 35", at_most=1e-12, because=EDGES,
           value=one("growth_means", "closure", **PLAIN),
           statement="a fluid of uniform pressure stays at rest: largest acceleration over P/(rho a), plain "
                     "edges, points jittered by 0.3 a"),
-    Claim(id="rr98-eq34-35-sound", source="RR98 Eqs 34, 35", at_most=1e-12, because=EDGES, headline=True,
+    Claim(id="own-eq34-35-sound", source="RR98 Eqs 34, 35", at_most=1e-12, because=EDGES, headline=True,
           evidence="operators/growth.png", value=one("growth_means", "rate", **PLAIN),
           statement="small sound waves in a fluid at rest without viscosity do not grow off a lattice: "
                     "largest growth rate a/c, the bracket + in both equations, plain edges, points jittered "
                     "by 0.3 a in 2D"),
-    Claim(id="rr98-eq34-35-sound-closed", source="RR98 Eqs 34, 35", at_most=1e-12, because=EDGES,
+    Claim(id="own-eq34-35-sound-closed", source="RR98 Eqs 34, 35", at_most=1e-12, because=EDGES,
           value=largest("growth_means", "largest", maker=CLOSED),
           statement="on edges that close sound does not grow: largest growth rate a/c, jittered, random and "
                     "relaxed points and lattice, 1 to 3 dimensions, with and without viscosity"),
 )
 TRANSPORT = (
-    Claim(id="rr98-eq37-volume", source="RR98 Eqs 26, 37", expect=1, within=0.05, because=LONG,
-          value=number("stress, v_i = v"),
+    Claim(id="rr98-eq37-volume", source="RR98 Eqs 26, 37", printed="found by discretizing Eq. (16)", expect=1,
+          within=0.05, because=LONG, value=number("stress, v_i = v"),
           statement="with the field velocity in Eq. 37 the force of Eq. 35 is div Pi dV: their ratio where "
                     "dV = 1/4; a dV is missing"),
-    Claim(id="rr98-eq40-euler", source="RR98 Eq. 40", at_most=1e-3, headline=True,
+    Claim(id="own-eq40-euler", source="RR98 Eq. 40", at_most=1e-3, headline=True,
           value=largest("euler", "abs(limit/predicted - 1)", "mode < 16"),
           because="damping squared over frequency squared: below 1e-4 for these coefficients",
           statement="forward Euler of the 2D gas is stable only for dt < (eta + zeta + kappa/2)/(rho c^2), "
@@ -127,7 +130,7 @@ ALONG = (
           statement="the two viscosities cannot be told from A and B (A alone enters both): largest "
                     "difference of eta, zeta of long waves on a lattice from M_A/2d(d+2) + M_B/2d, "
                     "M_A/d(d+2) - (1 - 2/d) eta over their size, five forms, 2 and 3 dimensions, h = 6 a"),
-    *(Claim(id=f"rr98-eq51-{name}", source="RR98 Eq. 51", expect=2, within=0.05,
+    *(Claim(id=f"own-eq51-{name}", source="RR98 Eq. 51", expect=2, within=0.05,
             value=order(f"friction, {operator}", 2), headline=name == "order",
             because="the next order, (k h)^4, takes 0.01 of the slope",
             statement=f"forces along edges are right to second order in 2D, {words}: slope of the error at h "
@@ -135,13 +138,13 @@ ALONG = (
       for name, operator, words in (("order", "zeta 0", "constant eta and zeta = 0"),
                                     ("order-bulk", "zeta 0.01", "constant eta and zeta = eta/2"),
                                     ("order-varying", "eta(T)", "eta(T) and zeta = 0"))),
-    Claim(id="rr98-eq51-rotation", source="RR98 Eq. 51", expect=0, within=1e-9,
+    Claim(id="own-eq51-rotation", source="RR98 Eq. 51", expect=0, within=1e-9,
           because="round-off over omega^2", value=number("heating of a rotation"),
           statement="the work of forces along edges, zeta = 0, does not heat a rigid rotation: heating over "
                     "eta omega^2, 2D; central ones, zeta = (1 + 2/d) eta, do not"),
 )
 LAYER = (
-    Claim(id="rr98-eq37-layer-stable", source="RR98 Eqs 37, 38", at_most=STILL, headline=True,
+    Claim(id="own-eq37-layer-stable", source="RR98 Eqs 37, 38", at_most=STILL, headline=True,
           evidence="operators/nested_growth.png",
           value=largest("nested_growth", "growth", err="1e-4*abs(growth)", share=0.0),
           because="rates of what stays are 1e-15, of what grows 1e-5 and more; differences over 1e-4 to 1e-6 "
@@ -154,7 +157,7 @@ LAYER = (
                     "share that was run and is stable"),
 )
 COEFFICIENTS = (
-    coefficient("eq34-36-sound", "Eqs 34-36", "correct up to second order", "sound speed",
+    coefficient("eq34-36-sound", "Eqs 34-36", TO_SECOND, "sound speed",
                 "the speed of sound is that of the gas but for an error of second order in 1/wavelength"),
     coefficient("eq37-viscosity", "Eq. 37", "eta", "viscosity",
                 "eta of Eq. 37 is the shear viscosity but for an error of second order", headline=True),
@@ -174,7 +177,7 @@ COEFFICIENTS = (
           statement="the two viscosities of forces along edges cannot be identified one by one: largest "
                     "relative difference between those put in by A, B of eta, zeta and those measured, edges "
                     "of a weight, h = 3 a, on points jittered by 0.3 a, waves of 32 a"),
-    Claim(id="rr98-transport-eq51-delaunay", source="RR98 Eq. 51", at_most=0.1, value=identified("delaunay"),
+    Claim(id="own-transport-eq51-delaunay", source="RR98 Eq. 51", at_most=0.1, value=identified("delaunay"),
           because="a tenth; six edges a point are no average over directions, as Eq. 51 takes with zeta > 0",
           statement="the two viscosities of forces along Delaunay edges are those put in: largest relative "
                     "difference, points jittered by 0.3 a, waves of 32 a"),
@@ -184,6 +187,7 @@ COEFFICIENTS = (
                     "have the viscosities put in: largest relative error for endless waves along an axis of "
                     "a lattice, by its symbol"),
     *(Claim(id=f"rr98-transport-eq51-long-h{h:.0f}", source="RR98 Eq. 51", at_most=0.01,
+            printed="terms proportional to lap v and grad(div v)",
             value=endless(BOTH, transport="pairwise", h=h, **LATTICE),
             because="1 %; sums of W x^4/r^3 over few neighbours are not averages over directions, however "
                     "long the wave",

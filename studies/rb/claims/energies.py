@@ -6,6 +6,7 @@ row. Claims on printed numbers compare with the grid's K as it is, as the paper 
 flow is right compare with the grid smoothed alike.
 """
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import partial
 from itertools import product
 
@@ -19,12 +20,32 @@ from studies.rb.claims.questions import ALIKE, PLAIN, against_alike, against_gri
 from studies.rb.tables import besides, particles
 
 WALLS = {"": ("printed", "mirror images"), "-fixed-rows": ("printed-fixed-rows", "fixed rows")}
+#: of mirror images, which the paper leaves open, and where they have been run beside the usual one
+READ = 10_000, "printed"
+READINGS = ("walls-own-pressure", "walls-odd")
 ENERGIES = {"": ("ke_field", "energy of the field"), "-particles": ("ke", "energy of the particles")}
 
 
 def error(ra: float, variant: str = "printed") -> Value:
     """|Kg/K - 1|, K of the grid smoothed alike."""
     return abs(against_alike(particles(ra, variant=variant)) - 1)
+
+
+def as_read(ra: float, variant: str, energy: str) -> Value:
+    """K of particles; of mirror images the error reaches to what other readings of them give.
+
+    The paper leaves open which pressure images carry, and whether their velocities are odd about the plate's.
+    Other readings have been run at Ra 10 000.
+    """
+    known = mean(particles(ra, variant=variant), energy)
+    if (ra, variant) != READ:
+        return known
+
+    def answer(tables: Tables) -> Measured:
+        value, err = known(tables)
+        others = [mean(particles(ra, variant=name), energy)(tables) for name in READINGS]
+        return Measured(value, max(err, *(abs(other.value - value) + other.err for other in others)))
+    return replace(known, answer=answer, text=f"{known}, or {', '.join(READINGS)}")
 
 
 def velocity(ra: float, height: int = 50, **where) -> Value:
@@ -70,14 +91,17 @@ def energies() -> Iterator[Claim]:
         for (wall, (variant, walls)), (whose, (energy, kind)) in product(WALLS.items(), ENERGIES.items()):
             said = f"5000 particles, Lucy, Ra {ra}, {walls}, {kind}"
             yield Claim(id=f"khp95-spam-ke-{ra}{whose}{wall}", source="KHP95 Sec. VI", printed=text,
-                        statement=f"K of {said}", value=mean(particles(ra, variant=variant), energy),
-                        **as_printed(f"ke-{ra}-spam"), because="half of the last printed digit")
+                        statement=f"K of {said}", value=as_read(ra, variant, energy),
+                        **as_printed(f"ke-{ra}-spam"), because=OPEN if (ra, variant) == READ else LAST)
             yield Claim(id=f"khp95-energy-error-{ra}{whose}{wall}", source="KHP95 Sec. VI", printed="10%",
                         at_most=0.105, statement=f"energy errors no worse than 10 %: {said}",
                         because=f"two digits are printed; {PLAIN}",
                         value=abs(against_grid(particles(ra, variant=variant), energy) - 1))
 
 
+LAST = "half of the last printed digit"
+OPEN = (f"{LAST}; the error reaches to what other readings of the images give, {' and '.join(READINGS)}: the "
+        "paper leaves open which one it took")
 FIVE = f'"about 5 %": half as much again; {PLAIN}'
 SOME = (f"{FIVE}; Ra of the points is not printed, near onset particles that start from weak rolls do not "
         "flow at all")
@@ -100,7 +124,7 @@ CLAIMS = (
                     "energies", value=largest_of(velocity(5e3), velocity(1e4)),
           because=f"a few are five at most; {PLAIN}"),
     *figure_points(),
-    Claim(id="khp95-walls-both", source="KHP95 Secs II, IV", at_most=0.1,
+    Claim(id="khp95-walls-both", source="KHP95 Secs II, IV", printed="two natural ways", at_most=0.1,
           statement="fixed rows and mirror images are both natural boundaries: K between them at Ra 10 000",
           value=between("printed-fixed-rows"),
           because="10 % is the paper's error of K; it does not tell which wall it used"),
@@ -114,6 +138,7 @@ CLAIMS = (
           value=between("arithmetic-mean"),
           because="1 % is what they say that fluctuations disguise"),
     Claim(id="khp95-weight-same", source="KHP95 Sec. IV", at_most=0.1,
+          printed="using both Lucy's and Monaghan's weight functions",
           statement="Lucy's and Monaghan's weights both simulate convection: K between them at Ra 10 000",
           value=between("printed-monaghan"), because="10 % is the paper's error of K"),
     CONVINCES(id="khp95-500-particles", source="KHP95 Sec. VI", because=CONVINCING,
@@ -127,11 +152,11 @@ CLAIMS = (
           headline=True, evidence="rb/fig7.png",
           statement="512 van der Waals particles convect with two rolls, Ra 10 000",
           because="a whole number; Ra is not printed", value=rolls(particles(1e4, 16, eos="vdw"))),
-    *(Claim(id=f"own-smoothed-{ra}", source="KHP95 Sec. VI", printed="10%", at_most=0.105, value=error(ra),
+    *(Claim(id=f"own-smoothed-{ra}", source="KHP95 Sec. VI", at_most=0.105, value=error(ra),
             because=f"{TEN}; {ALIKE}",
             statement="the field has the energy of the grid's field smoothed alike: |K/K - 1|, 5000 "
                       f"particles, mirror images, Ra {ra}") for ra in (5000, 10000)),
-    Claim(id="own-nusselt-plates", source="KHP95 Sec. II", printed="exact conservation", at_most=0.01,
+    Claim(id="own-nusselt-plates", source="KHP95 Sec. II", at_most=0.01,
           value=of(plates), because=DISGUISED,
           statement="energy that goes in at the lower plate goes through the layer and out at the upper "
                     "one: largest difference of both Nusselt numbers from the flux's, all numbers of "

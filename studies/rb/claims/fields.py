@@ -6,12 +6,12 @@ from typing import Any
 from studies.build.measure import RANGE
 from studies.build.names import as_printed
 from studies.kit import stats
-from studies.kit.ask import Value, of, one, rows
+from studies.kit.ask import Value, of, one, per_seed, rows
 from studies.kit.claim import Claim
 from studies.kit.stats import CannotTell, Measured
 from studies.kit.table import Tables
 from studies.rb.claims import questions
-from studies.rb.claims.questions import ALIKE, diverged, history, mean, over_seeds, rolls_in, same_flow
+from studies.rb.claims.questions import ALIKE, diverged, history, mean, rolls_in, same_flow
 from studies.rb.tables import Point, besides, grid, particles
 
 STEADY, ROWS = particles(1e4), particles(1e4, variant="printed-fixed-rows")
@@ -32,7 +32,7 @@ def seen(column: str, point: Point = STEADY) -> Value:
 
 def time_of_approach() -> Value:
     """When K is near its late mean for good, particles over grid, Ra 10 000."""
-    ratio = over_seeds(history(questions.settling, STEADY))/history(questions.settling, CELLS, "ke")
+    ratio = per_seed(history(questions.settling, STEADY))/history(questions.settling, CELLS, "ke")
     return same_flow(ratio, STEADY, grid(1e4))
 
 
@@ -41,7 +41,7 @@ def robust(tables: Tables) -> Measured:
     point = particles(HIGHEST)
     if diverged(tables, point).any():
         return Measured(inf, 0.0)
-    return over_seeds(history(questions.drift, point))(tables)
+    return per_seed(history(questions.drift, point))(tables)
 
 
 def right_at_high(tables: Tables) -> Measured:
@@ -64,7 +64,7 @@ def right_at_high(tables: Tables) -> Measured:
 def losses(variant: str) -> Value:
     """Particles lost without the elastic wall, a particle and run: none where it turned none back."""
     point = particles(1e4, variant=variant)
-    turns = over_seeds(one("walls", f"reflections/{PARTICLES}", plate="lower", **point))
+    turns = per_seed(one("walls", f"reflections/{PARTICLES}", plate="lower", **point))
 
     def answer(tables: Tables) -> Measured:
         number = turns(tables)
@@ -146,7 +146,7 @@ CLAIMS = (
                     "is within 5 %",
           because="no number is printed: a fifth; a narrower band would time the noise"),
     Claim(id="khp95-fluctuation-level", source="KHP95 Sec. VI", printed="about 1%", expect=0.01, within=0.01,
-          value=over_seeds(history(questions.scatter, STEADY)),
+          value=per_seed(history(questions.scatter, STEADY)),
           statement="fluctuations disguise errors of less than 1 %: standard deviation of K(t) over K, 5000 "
                     "particles, Ra 10 000", because='"about", one digit, as an upper bound: twice'),
     Claim(id="khp95-walls-leakproof", source="KHP95 Sec. II", printed="as well as a leak-proof wall",

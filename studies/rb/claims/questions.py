@@ -7,7 +7,7 @@ import numpy as np
 import pandas as pd
 
 from studies.kit import fits, stats
-from studies.kit.ask import NoRows, Value, curve, each, one, rows
+from studies.kit.ask import NoRows, Value, curve, one, rows
 from studies.kit.stats import CannotTell, Measured
 from studies.kit.table import Tables
 from studies.rb.tables import SCENE, STILL, Point, besides, grid
@@ -58,13 +58,6 @@ def against_alike(point: Point) -> Value:
     """Kg over K of the grid's field smoothed alike, in the same flow: 1 if it is right."""
     beside = grid(1.0) | {name: point[name] for name in SCENE}
     return same_flow(mean(point, "ke_field")/alike(point), point, beside)
-
-
-def over_seeds(value: Value) -> Value:
-    """Mean of what a question gives for each seed; its error is that of their scatter."""
-    def answer(tables: Tables) -> Measured:
-        return stats.over_seeds([seed.value for seed in each("seed", value, tables)])
-    return Value(answer, f"mean over seeds of {value}", value.asks)
 
 
 def over_runs(point: Point, energy: str = "ke_field") -> Value:

@@ -1,0 +1,293 @@
+"""Numbers of README.md and results/findings.md are those of the tables, from which sentences are made."""
+import re
+from collections.abc import Iterator
+
+import pytest
+
+from studies.kit.ask import one, per_seed
+from studies.kit.csvfile import read
+from studies.kit.key import ROOT
+from studies.kit.stats import Measured
+from studies.kit.store import RESULTS
+from studies.kit.table import Tables
+from studies.rb.tables import Point, grid, particles, points
+from studies.report.equations import with_error
+
+CLAIMS = read(RESULTS/"claims.csv").set_index("id")
+ROWS, FEW = (16, 35, 50, 70, 100), (25, 40, 50)
+
+
+class Folder(Tables):
+    """Tables of a study, read where they are asked for."""
+
+    def __init__(self, study: str):
+        super().__init__()
+        self.study = study
+
+    def __contains__(self, name: object) -> bool:
+        return True
+
+    def __missing__(self, name: str):
+        path, = (RESULTS/self.study).glob(f"{name}.csv*")
+        self[name] = read(path)
+        return self[name]
+
+
+RB = Folder("rb")
+
+
+def said(number: Measured, scale: float = 100, sign: str = "") -> str:
+    """As texts have it, in per cent, with the signs of a keyboard; `sign` "+" has a plus, too."""
+    text = with_error(scale*number.value, scale*number.err).replace("\N{MINUS SIGN}", "-")
+    return sign*bool(number.value > 0) + text
+
+
+def all_of(numbers, scale: float = 100) -> str:
+    """Several in a row."""
+    return ", ".join(said(number, scale) for number in numbers)
+
+
+def of(name: str, scale: float = 1, form: str = "") -> str:
+    """What a claim measured, with its error or to some digits."""
+    claim = CLAIMS.loc[name]
+    return f"{scale*claim.measured:{form}}" if form else said(Measured(claim.measured, claim.err), scale)
+
+
+def percent(name: str, form: str = "") -> str:
+    """The same in per cent."""
+    return of(name, 100, form)
+
+
+def error(point: Point, energy: str = "Kp") -> Measured:
+    """Relative, of a row of `errors`."""
+    return one("errors", "error", energy=energy, **point)(RB)
+
+
+def of_rows(variant: str, rows, energy: str = "Kp") -> list[Measured]:
+    return [error(particles(1e4, n, variant), energy) for n in rows]
+
+
+def digits(variant: str, rows, form: str = ".1f") -> str:
+    """Errors of points in K, in per cent, without their own."""
+    return ", ".join(f"{100*error(points(1e4, variant, n)).value:{form}}" for n in rows)
+
+
+def limit(variant: str, column: str = "ke") -> Measured:
+    """Of points without end, over the grid's, less 1."""
+    ends = [one("means", column, **point)(RB) for point in (points(1e4, variant), grid(1e4))]
+    return ends[0]/ends[1] - 1
+
+
+def seconds(method: str, scene: str, quantity: str) -> Measured:
+    """To 1 %; the mean half width."""
+    where = {"scene": scene, "quantity": quantity, "method": method, "level": 0.01}
+    return one("needed", "cpu_s", err="(high - low)/2", **where)(Folder("cost"))
+
+
+def without(base: str, left_out: str, scene: str) -> str:
+    """What a term takes of a step, in per cent."""
+    return said(1 - one("scenes", "step_ratio", scene=scene, base=base, left_out=left_out)(Folder("cost")))
+
+
+def onsets() -> str:
+    where = {"method": "spam", "variant": "printed", "way": "run"}
+    return all_of((one("critical_ra", "value", err="err", resolution=n, **where)(Folder("onset"))
+                   for n in (16, 25, 35, 50)), 1)
+
+
+def frozen(weight: str) -> str:
+    """P at which it freezes."""
+    P = one("freezing_limits", "measured", weight=weight, step=1.0)
+    halves = CLAIMS.loc[f"khp95-hard-freezing-melting-{weight.lower()}"]
+    return said(Measured(per_seed(P)(Folder("lattices")).value, 0) + Measured(0, halves.err*rule(weight)), 1)
+
+
+def rule(weight: str) -> float:
+    """P of KHP95's rule."""
+    return per_seed(one("freezing_limits", "melting", weight=weight, step=1.0))(Folder("lattices")).value
+
+
+def ripples() -> str:
+    return all_of((one("ripple_growth", "growth", scale=n, steep=0.25)(Folder("hardcases"))
+                   for n in (1, 2, 4)), 1)
+
+
+def thermal(kind: str, *names: str) -> str:
+    """kT of dissipative particles, off by so many per cent."""
+    whose = {name: "groot-warren" if name.startswith("groot") else "own" for name in names}
+    return ", ".join(percent(f"{whose[name]}-dpd-long-{kind}-{name}") for name in names)
+
+
+def velocities(*rows: int) -> str:
+    return " and ".join(said(one("field_errors", "velocity", **points(1e4, "moving-delaunay", n))(RB))
+                        for n in rows)
+
+
+def smooth() -> Iterator[str]:
+    kg, kp = (of_rows("printed", (*ROWS[:1], 25, *ROWS[1:]), energy) for energy in ("Kg", "Kp"))
+    nu = of_rows("printed", (25, *ROWS[1:]), "Nu")
+    yield f"the error of Kg is {said(kg[0])} % with 16 rows and {said(kg[2])} % with 35"
+    yield f"{all_of(kg[3:])} % with 50, 70, 100"
+    yield f"is {all_of(kp[1:])} % off with 25, 35, 50, 70, 100 rows"
+    yield f"Nu is {all_of(-number for number in nu)} % low with 25, 35, 50, 70, 100 rows"
+    grows = one("critical_ra", "value", err="err", method="compressible", way="run")(Folder("onset"))
+    yield f"above Ra {onsets()} with 16, 25, 35, 50 rows; on the grid they grow above {said(grows, 1)}"
+    rows = [error(particles(1e4, n, "printed-fixed-rows"), "Kg") for n in (50, 25)]
+    yield f"the error of Kg from {100*kg[3].value:.0f} to {said(rows[0])} % with 5000 particles"
+    yield f"Kg is then {said(rows[1])} % too high"
+    means = [one("means", "ke", **particles(ra, variant=name))(RB) for ra, name in (
+        (5e3, "printed"), (1e4, "printed"), (1e4, "walls-own-pressure"), (1e4, "walls-odd"))]
+    yield f"Kp is {said(means[0], 1)} at Ra 5000 and {said(means[1], 1)} at Ra 10 000"
+    yield f"it is {said(means[2], 1)}, with odd ones {said(means[3], 1)}"
+
+
+def grids() -> Iterator[str]:
+    yield f"is {of('khp95-ke-5000', form='.7f')} at Ra 5000"
+    yield f"it is {of('khp95-ke-10000', form='.6f')} (printed 0.00481"
+    yield f"reads {of('own-ke-10000-line')} at Ra 10 000"
+    yield f"to {percent('khp95-ke-line', '.1f')} % of its largest value"
+    yield f"by {percent('khp95-ra-figures')} %; the paper has it"
+    yield f"Linear theory gives {of('khp95-chandrasekhar', form='.2f')}"
+    yield (f"{percent('khp95-ra-close', '.2f')} % away from that with constant eta and "
+           f"{percent('khp95-ra-close-const-nu', '.1f')} % with constant nu")
+
+
+def edges() -> Iterator[str]:
+    yield (f"leave {percent('own-vortex-closed-error')} % error in a vortex and "
+           f"{percent('own-convection-closed-error')} % in convection")
+    kinds = ("jittered", "random", "relaxed")
+    yield ", ".join(of(f"own-vortex-triangles-{kind}") for kind in kinds) + " in the vortex"
+    yield "1 % of K takes " + ", ".join(of(f"own-convection-triangles-cost-{kind}") for kind in kinds)
+    yield f"sound grows by {of('own-eq34-35-sound', form='.2f')} c/a"
+    yield (f"{percent('rr98-transport-eq51-long-h2', '.0f')} % off on a lattice at h = 2 a, "
+           f"{percent('rr98-transport-eq51-long-h3', '.0f')} % at 3 a and "
+           f"{percent('own-transport-eq51-delaunay')} % on Delaunay edges")
+
+
+def convection() -> Iterator[str]:
+    for name, rows, form in (("fixed-lattice", (25, 40, 50, 64, 80), ".1f"),
+                             ("fixed-jittered-plates", (25, 40, 50, 64), ".1f"),
+                             ("fixed-random-plates", FEW, ".1f"), ("moving-delaunay", FEW, ".2f"),
+                             ("moving", (25, 40, 50, 64, 80), ".1f")):
+        numbers = ", ".join(map(str, rows))
+        yield f"| {digits(name, rows, form)} | {numbers} | {said(limit(name))} |"
+    yield f"| `fixed-lattice-printed-heat` | | | {said(limit('fixed-lattice-printed-heat'))} |"
+    printed = ("rr98-eq39-rb-literal", "rr98-eq46-48-rb-convective", "rr98-eq49-rb-constant-mass")
+    yield ", ".join(f"-{percent(name)}" for name in printed)
+    yield f"{digits('moving-delaunay', (12, 16, 20, 25, 32, 40, 50), '.2f').replace('-', '')} % low"
+    yield f"ends {said(limit('moving-delaunay'))} % too high"
+    ends = [said(one("means", "nu", **point)(RB), 1) for point in (points(1e4, "moving-delaunay"), grid(1e4))]
+    yield f"that of Nu ends at {ends[0]}, the grid has {ends[1]}"
+    yield f"Velocities are off by {velocities(25, 40)} % with 25 and 40 rows"
+    yield f"or {percent('rr98-rb-nested-only')} % low with 40 rows"
+    yield f"A tenth along edges gives {percent('own-rb-nested-tenth')} %"
+
+
+def costs() -> Iterator[str]:
+    names = "grid", "moving"
+    k, flow = ([said(seconds(name, "convection", what), 1) for name in names] for what in ("K", "velocity"))
+    yield (f"| {k[0]} s | {of('own-speed-fixed-points')} grids | {of('own-speed-carried-k')} grids "
+           f"| {k[1]} s |")
+    lattice, cells = (seconds(name, "convection", "velocity") for name in ("fixed-lattice-h1.2", "grid"))
+    yield (f"| {flow[0]} s | {said(lattice/cells, 1)} grids | {of('own-speed-carried-velocity')} grids "
+           f"| {flow[1]} s |")
+    rest = [said(seconds(name, "taylor-green", "velocity"), 1)
+            for name in ("grid", "py-pde", "fixed-lattice-h1.2", "moving-delaunay", "moving")]
+    yield (f"| {rest[0]} s (KHP95's cells), {rest[1]} s (staggered, py-pde) | {rest[2]} s | {rest[3]} s "
+           f"| {rest[4]} s |")
+    cells = seconds("grid", "sound", "velocity")
+    yield (f"| {said(cells, 1)} s | {of('own-speed-fixed-points-sound')} grids | "
+           f"| {said(seconds('moving', 'sound', 'velocity')/cells, 1)} grids |")
+    yield f"it takes {of('own-speed-fixed-points-5000')} of the grid's time"
+    yield f"In velocity it takes {of('own-speed-fixed-points-5000-velocity')} times as long"
+    yield (f"grows as N^{of('khp95-speed-growth-spam')} (smooth particles) and "
+           f"N^{of('own-speed-growth-fixed')} (lattice)")
+    yield f"take {of('own-streams-vortex-still')} times the grid's seconds for 1 %"
+    yield f"take {percent('own-scenes-motion')} % of the time of points that move"
+    yield f"noise out saves {without('fixed-lattice-noise', 'noise', 'taylor-green')} %"
+    yield f"costs {without('fixed-lattice-edge-by-edge', 'mended heating', 'convection')} % of a step"
+    yield f"at Mach 0.05 ({of('own-scenes-compressibility')})"
+
+
+def noises() -> Iterator[str]:
+    even = "own-fluct-equipartition"
+    yield f"Equipartition is {of(even)} in 2D and {of(even + '-3d')} in 3D"
+    yield f"with the power {of('own-fluct-eq25-onset')} of 1 - Ra/Ra_c"
+    yield f"a mode has {of('own-fluct-eq25-onset-seen')} times its variance"
+    names = "grootwarren", "grootwarren65", "velocityverlet", "shardlow"
+    yield f"the kinetic kT is {thermal('kinetic', *names)} % off"
+    yield f"the configurational one {thermal('configurational', *names)} %"
+    yield f"the kinetic one is {percent('own-two-step-dpd-percent')} % off"
+    yield f"The pressure is {of('allen-tildesley-dpd-pressure-asked')}, printed 23.64"
+
+
+def breaks() -> Iterator[str]:
+    yield f"freezes at P = {frozen('Lucy')} (Lucy) and {frozen('Monaghan')} (Monaghan)"
+    rule = "khp95-hard-freezing-melting"
+    yield f"With a quarter of the time step it is {of(rule + '-short')} times the rule"
+    yield f"extrapolated to no step {of(rule + '-limit')} times"
+    yield f"moving points within {percent('own-sod-moving-grid')} %"
+    yield f"grows at {ripples()} of the impulsive rate"
+
+
+def choice() -> Iterator[str]:
+    where = particles(1e4)
+    for words, name, *energies in (("none", "printed", "Kg", "Kp", "Nu"),
+                                   ("(`less-static-50`)", "less-static-50", "Kg", "Kp", "Nu"),
+                                   ("held rows behind the plates", "printed-fixed-rows", "Kg", "", "Nu"),
+                                   ("a quarter of the noise", "wendland-c2", "Kg", "", ""),
+                                   ("range of 4 spacings", "range-4", "Kg", "Kp", "")):
+        cells = [said(error({**where, "variant": name}, energy), sign="+") if energy else ""
+                 for energy in energies]
+        yield re.sub(" +", " ", f"{words} | {' | '.join(cells)} |")
+
+
+def front() -> Iterator[str]:
+    """Of README.md."""
+    kg = of_rows("printed", (35, 100), "Kg")
+    yield f"is {-100*kg[0].value:.1f} % too low with 35 rows and {-100*kg[1].value:.0f} % too low with 100"
+    most = abs(limit("fixed-lattice"))
+    within = f"{100*(most.value + most.err):.3f}"
+    yield f"K is {digits('fixed-lattice', [50])} % too high with 50 rows, right within {within} %"
+    yield f"converge, {digits('moving-delaunay', [50], '.2f').strip('-')} % too low with 50 rows"
+    yield (f"lattice points take {of('own-speed-fixed-points', form='.1f')} times as long, moving ones "
+           f"{of('own-speed-carried-k')} times")
+    for name in ("grid", "fixed-lattice-h1.2", "moving-delaunay"):
+        yield f"| {seconds(name, 'convection', 'K').value:.2f} s |"
+    vortex = [seconds(name, "taylor-green", "velocity").value for name in ("fixed-lattice-h1.2", "grid")]
+    yield f"`grid` takes {vortex[1]/vortex[0]:.1f} times as long | {vortex[0]:.3f} s"
+    yield f"| {digits('fixed-jittered-plates', [50]).strip('-')} % low"
+    yield f"| {-100*error(particles(1e4, 50, 'less-static-50'), 'Kg').value:.0f} % low"
+
+
+def counts() -> Iterator[str]:
+    after = (CLAIMS["fixed"] == "after").sum()
+    yield f"Of {len(CLAIMS)} claims {after} were fixed after a look"
+
+
+TEXTS = {"README.md": (front,), "results/README.md": (counts,),
+         "results/findings.md": (smooth, grids, edges, convection, costs, noises, breaks, choice)}
+#: a number with its error, as in 17.5(15)
+ERROR = r"[-+]?\d[\d.]*\(\d+\)"
+#: that no row has: the example of how they are written, an error that misses its level, ranges of variants
+OTHERS = {"17.5(15)", "44(8)", "5(3)", "8(5)", "1.02(12)"}
+
+
+def words(path: str) -> str:
+    return re.sub(r"\s+", " ", (ROOT/path).read_text())
+
+
+@pytest.mark.parametrize("part", [(path, part) for path, parts in TEXTS.items() for part in parts],
+                         ids=lambda one: one[1].__name__)
+def test_sentences_have_the_numbers_of_the_tables(part):
+    path, sentences = part
+    missing = [sentence for sentence in sentences() if sentence not in words(path)]
+    assert not missing
+
+
+@pytest.mark.parametrize("path", TEXTS)
+def test_no_number_with_an_error_is_left_unchecked(path):
+    text = words(path)
+    for sentence in [made for parts in TEXTS.values() for part in parts for made in part()]:
+        text = text.replace(sentence, "")
+    assert {*re.findall(ERROR, text)} <= OTHERS
