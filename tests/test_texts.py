@@ -84,9 +84,10 @@ def seconds(method: str, scene: str, quantity: str) -> Measured:
     return one("needed", "cpu_s", err="(high - low)/2", **where)(Folder("cost"))
 
 
-def without(base: str, left_out: str, scene: str) -> str:
-    """What a term takes of a step, in per cent."""
-    return said(1 - one("scenes", "step_ratio", scene=scene, base=base, left_out=left_out)(Folder("cost")))
+def cheaper(scene: str, quantity: str) -> str:
+    """The stream from which on points that move are, beside the grid."""
+    return said(one("crossings", "stream", err="high - stream", scene=scene, quantity=quantity,
+                    rival="grid")(Folder("streams")), 1)
 
 
 def onsets() -> str:
@@ -175,7 +176,8 @@ def convection() -> Iterator[str]:
     printed = ("rr98-eq39-rb-literal", "rr98-eq46-48-rb-convective", "rr98-eq49-rb-constant-mass")
     yield ", ".join(f"-{percent(name)}" for name in printed)
     yield f"{digits('moving-delaunay', (12, 16, 20, 25, 32, 40, 50), '.2f').replace('-', '')} % low"
-    yield f"ends {said(limit('moving-delaunay'))} % too high"
+    yield (f"falls with order {of('own-rb-carried-lattice')}. A fit of both powers ends "
+           f"{said(limit('moving-delaunay'))} % too high")
     ends = [said(one("means", "nu", **point)(RB), 1) for point in (points(1e4, "moving-delaunay"), grid(1e4))]
     yield f"that of Nu ends at {ends[0]}, the grid has {ends[1]}"
     yield f"Velocities are off by {velocities(25, 40)} % with 25 and 40 rows"
@@ -197,16 +199,19 @@ def costs() -> Iterator[str]:
            f"| {rest[4]} s |")
     cells = seconds("grid", "sound", "velocity")
     yield (f"| {said(cells, 1)} s | {of('own-speed-fixed-points-sound')} grids | "
-           f"| {said(seconds('moving', 'sound', 'velocity')/cells, 1)} grids |")
+           + " | ".join(f"{said(seconds(name, 'sound', 'velocity')/cells, 1)} grids"
+                        for name in ("moving-delaunay", "moving")) + " |")
     yield f"it takes {of('own-speed-fixed-points-5000')} of the grid's time"
     yield f"In velocity it takes {of('own-speed-fixed-points-5000-velocity')} times as long"
     yield (f"grows as N^{of('khp95-speed-growth-spam')} (smooth particles) and "
            f"N^{of('own-speed-growth-fixed')} (lattice)")
-    yield f"take {of('own-streams-vortex-still')} times the grid's seconds for 1 %"
-    yield f"take {percent('own-scenes-motion')} % of the time of points that move"
-    yield f"noise out saves {without('fixed-lattice-noise', 'noise', 'taylor-green')} %"
-    yield f"costs {without('fixed-lattice-edge-by-edge', 'mended heating', 'convection')} % of a step"
-    yield f"at Mach 0.05 ({of('own-scenes-compressibility')})"
+    yield f"costs {of('own-streams-vortex-still')} times the grid's seconds at rest"
+    yield f"from {of('own-streams-vortex-crossing')} times the flow's speed on"
+    yield f"and {of('own-streams-vortex-fast')} of those of the cheapest"
+    yield (f"a vortex of even density at {cheaper('gresho', 'velocity')}, a hot spot at "
+           f"{cheaper('spot', 'temperature')}, a contact at {cheaper('contact', 'density')}, a stripe that is "
+           f"wound up at {cheaper('mixing', 'stripe')}, a wave in shear at {cheaper('shear', 'wave')} times")
+    yield f"{percent('own-streams-closed-faces', '.0f')} % of their runs in streams"
 
 
 def noises() -> Iterator[str]:
