@@ -151,17 +151,21 @@ def moments(sums: Nested) -> np.ndarray:
     return M
 
 
-def of_pressure(sums: Any, state: np.ndarray) -> float:
-    """Amplitude of the stress of the pressure sum."""
+def stresses(sums: Any) -> np.ndarray:
+    """(2, n): (xx - yy)/2 and xy of the stress of the pressure sum, of each particle."""
     around, pairs, n = sums.around, sums.around.pairs, sums.n
     row, entry = entries(pairs, np.arange(n))
-    near, (wx, wy) = pairs.near[entry], (pairs.wx[entry], pairs.wy[entry])
+    near, wx, wy = pairs.near[entry], pairs.wx[entry], pairs.wy[entry]
     P = sums.tensor()
     xx, xy, yy = P[:, row] + P[:, near]
     fx, fy = xx*wx + xy*wy, xy*wx + yy*wy
     dx, dy = (q[row] - q[near] for q in (around.x, around.y))
-    stress = np.array([np.bincount(row, q, n)/4 for q in (fx*dx - fy*dy, fx*dy + fy*dx)])
-    return amplitude(stress, sums.method.mode.d(state[:2], sums.method.k))
+    return np.array([np.bincount(row, q, n)/4 for q in (fx*dx - fy*dy, fx*dy + fy*dx)])
+
+
+def of_pressure(sums: Any, state: np.ndarray) -> float:
+    """Amplitude of the stress of the pressure sum."""
+    return amplitude(stresses(sums), sums.method.mode.d(state[:2], sums.method.k))
 
 
 def of_noise(sums: Any, state: np.ndarray) -> float:
