@@ -11,12 +11,12 @@ from studies.build.spam import VARIANTS, at_rest
 from studies.lattices.loss import Law, gain, laws, projected, roll, strained, thickness
 from studies.lattices.stirred import (
     SHEARED,
+    STARTS,
     STIRRED,
     Corrected,
     Stirred,
     amplitude,
     moments,
-    places,
     slip_length,
     stresses,
     symbol,
@@ -67,9 +67,9 @@ def test_stresses_are_a_double_sum_over_pairs():
     np.testing.assert_allclose(stresses(sums), known, atol=1e-12)
 
 
-@pytest.mark.parametrize("start", ["square", "turned", "hexagonal"])
+@pytest.mark.parametrize("start", list(STARTS))
 def test_starts_fill_the_box_evenly(start):
-    x = places(start, RayleighBenard(ra=1e4, L=25.0, aspect=1.0), 1)
+    x = STARTS[start](RayleighBenard(ra=1e4, L=25.0, aspect=1.0), 1)
     assert len(x) == pytest.approx(625, abs=25) and np.abs(x.mean(axis=0)).max() < 0.7
 
 
@@ -86,8 +86,8 @@ def test_plates_that_slip_are_rigid_and_free_ones_in_the_limits():
 
 def test_a_law_is_found_again_and_makes_a_fluid_more_viscous():
     C, q = 0.007, 0.25
-    runs = pd.DataFrame({"variant": "printed", "h": 3.0, "mode": "stirred", "start": "square", "corrected": False,
-                         "flow": 0.8, "P": 1.0, "friction": [0.01, 0.02, 0.04, 0.08]})
+    runs = pd.DataFrame({"variant": "printed", "h": 3.0, "mode": "stirred", "start": "square",
+                         "corrected": False, "flow": 0.8, "P": 1.0, "friction": [0.01, 0.02, 0.04, 0.08]})
     runs["stress"] = projected(q)*C*runs["friction"]**q
     found = next(laws(runs))
     assert [found["C"], found["q"]] == pytest.approx([C, q])

@@ -74,8 +74,8 @@ def reversal(rows: pd.DataFrame, twins: pd.DataFrame) -> Figure:
 
 #: part of the static pressure that the sums hold -> label
 HELD = {5.0: "five times", 2.0: "twice", 1.0: "as printed", 0.5: "half", 0.1: "a tenth"}
-SERIES = {"printed": "Lucy, h = 3 a", "fixed": "Wendland C2, h = 3 a", "joint": r"Wendland C2, h $\propto$ rows$^{1/2}$",
-          "corrected": r"Lucy, $P_i M_i^{-1}$ for $P_i$"}
+SERIES = {"printed": "Lucy, h = 3 a", "fixed": "Wendland C2, h = 3 a",
+          "joint": r"Wendland C2, h $\propto$ rows$^{1/2}$", "corrected": r"Lucy, $P_i M_i^{-1}$ for $P_i$"}
 
 
 def stress(driven: pd.DataFrame, laws: pd.DataFrame, foretold: pd.DataFrame) -> Figure:
@@ -87,7 +87,8 @@ def stress(driven: pd.DataFrame, laws: pd.DataFrame, foretold: pd.DataFrame) -> 
         left.plot(some["J"], some["tau"], **{**look(number), "linestyle": "none"}, label=f"$P$ {label}")
     J = np.geomspace(runs["J"].min(), runs["J"].max(), 50)
     left.plot(J, projected(law.q)*law.C*J**law.q, color="grey", linewidth=0.9, label=f"$q$ = {law.q:.2f}")
-    left.set(xscale="log", yscale="log", xlabel=r"friction $\eta\gamma/P$", ylabel="stress of the pressure sum / $P$")
+    left.set(xscale="log", yscale="log", xlabel=r"friction $\eta\gamma/P$",
+             ylabel="stress of the pressure sum / $P$")
     for number, (name, label) in enumerate(SERIES.items()):
         flow = series(driven, name).groupby("rows")["flow"]
         spread = (flow.max() - flow.min())/2

@@ -53,12 +53,12 @@ THICKENED = Table.of(
            "share": ("<P^(1-q) (eta gamma)^q gamma>/<eta gamma^2>, of its own viscosity", "")})
 LAWS = Table.of(
     "laws", "variant", "C C_err q q_err scatter runs",
-    about="tau = C P^(1-q) (eta gamma)^q of stirred particles; one law for all parts of the static pressure.",
+    about="tau = C P^(1-q) (eta gamma)^q of stirred particles; one law for all parts of static pressure.",
     means={"C": ("stress over P where eta gamma = P", ""), "q": ("its power", ""), "runs": ("fitted", ""),
            "scatter": ("rms of ln(measured/law)", "")})
 FORETOLD = Table.of(
     "foretold", "variant ra rows", "x slip bulk predicted predicted_err measured measured_err",
-    about="K of smooth particles over that of the grid, seen alike: by the law of the stress and as measured.",
+    about="K of smooth particles over that of the grid, seen alike: by the law and as measured.",
     means={"x": ("viscosity that the law makes, over the given one; none: all rests", ""),
            "slip": ("slip length of the plates", "a"), "bulk": ("K by the law, without slip", ""),
            "predicted": ("K by law and slip", ""), "measured": ("Kg of results/rb/errors.csv", "")})
@@ -164,7 +164,8 @@ def roll(b: float) -> tuple[float, float]:
     slopes = [2*(edge*Chebyshev.basis(n)).deriv() for n in range(DEGREE)]
     ends = np.array([[slope(z) for slope in slopes] for z in (-1.0, 1.0)])
     friction, none = i.friction + ends.T@ends/max(b, 1e-9), np.zeros_like(i.lift)
-    work, waves = eigh(np.block([[none, i.lift], [i.lift.T, none]]), block_diag(friction/ROLL**2, i.conduction))
+    lift = np.block([[none, i.lift], [i.lift.T, none]])
+    work, waves = eigh(lift, block_diag(friction/ROLL**2, i.conduction))
     w = waves[:DEGREE, -1]
     return float(work[-1]**-2), float((w@friction@w)/(w@i.inertia@w))
 

@@ -34,7 +34,7 @@ SETTLED = 1/3           # of a run, before means: three turns and more of the fl
 LOOKS = 10              # in the time that friction takes to slow a flow by e
 ETA = 0.01              # over L: viscosity of KHP95's gas at Ra 10 000
 CHANNEL = 25            # columns of flows along x: longer waves of an unstable shear flow find no room
-Flowing = Callable[[np.ndarray, float], np.ndarray]     # of places (2, n) and k: (2, n)
+Flowing = Callable[[np.ndarray], np.ndarray]     # of phases k (x, y), (2, n)
 
 
 class Mode(NamedTuple):
@@ -42,39 +42,31 @@ class Mode(NamedTuple):
     name: str
     v: Flowing
     d: Flowing
-    n: int
-    halves: int
+    n: int = 1
+    halves: int = 2
+    phase: float = 0.0
 
 
-def swirl(x: np.ndarray, k: float) -> np.ndarray:
+def swirl(p: np.ndarray) -> np.ndarray:
     """Taylor and Green's vortices, whose convection is a pressure."""
-    (s, t), (c, d) = np.sin(k*x), np.cos(k*x)
-    return np.array([s*d, -c*t])
+    return np.array([np.sin(p[0])*np.cos(p[1]), -np.cos(p[0])*np.sin(p[1])])
 
 
-def stretch(x: np.ndarray, k: float) -> np.ndarray:
-    return np.array([np.cos(k*x[0])*np.cos(k*x[1]), 0*x[0]])
+def stretch(p: np.ndarray) -> np.ndarray:
+    return np.array([np.cos(p[0])*np.cos(p[1]), 0*p[0]])
 
 
-def slide(x: np.ndarray, k: float) -> np.ndarray:
-    return np.array([np.sin(k*x[1]), 0*x[0]])
+def slide(p: np.ndarray) -> np.ndarray:
+    return np.array([np.sin(p[1]), 0*p[0]])
 
 
-def slope(x: np.ndarray, k: float) -> np.ndarray:
-    return np.array([0*x[0], np.cos(k*x[1])])
+def slope(p: np.ndarray) -> np.ndarray:
+    return np.array([0*p[0], np.cos(p[1])])
 
 
-def channel(x: np.ndarray, k: float) -> np.ndarray:
-    return np.array([np.cos(k*x[1]), 0*x[0]])
-
-
-def channel_slope(x: np.ndarray, k: float) -> np.ndarray:
-    return np.array([0*x[0], -np.sin(k*x[1])])
-
-
-STIRRED = Mode("stirred", swirl, stretch, 2, 2)
-SHEARED = Mode("sheared", slide, slope, 1, 2)
-PLATES = Mode("plates", channel, channel_slope, 1, 1)
+STIRRED = Mode("stirred", swirl, stretch, n=2)
+SHEARED = Mode("sheared", slide, slope)
+PLATES = Mode("plates", slide, slope, halves=1, phase=np.pi/2)
 
 
 class Layer(Tile):
@@ -98,7 +90,10 @@ class Driven(Spam):
         return self.mode.n*self.law.eta*self.k
 
     def v(self, state: np.ndarray) -> np.ndarray:
-        return self.mode.v(state[:2], self.k)
+        return self.mode.v(self.k*state[:2] + self.mode.phase)
+
+    def d(self, state: np.ndarray) -> np.ndarray:
+        return self.mode.d(self.k*state[:2] + self.mode.phase)
 
 
 class Push(Nested):
@@ -165,23 +160,18 @@ def stresses(sums: Any) -> np.ndarray:
 
 def of_pressure(sums: Any, state: np.ndarray) -> float:
     """Amplitude of the stress of the pressure sum."""
-    return amplitude(stresses(sums), sums.method.mode.d(state[:2], sums.method.k))
+    return amplitude(stresses(sums), sums.method.d(state))
 
 
 def of_noise(sums: Any, state: np.ndarray) -> float:
     """Amplitude of the stress -rho v v of velocities beside the flow."""
     u, v = beside(sums, state)
-    return amplitude(np.array([(v*v - u*u)/2, -u*v]), sums.method.mode.d(state[:2], sums.method.k))
+    return amplitude(np.array([(v*v - u*u)/2, -u*v]), sums.method.d(state))
 
 
 def of_flow(sums: Any, state: np.ndarray) -> float:
     """Amplitude of the velocity."""
     return amplitude(state[2:4], sums.method.v(state))
-
-
-def noise(sums: Any, state: np.ndarray) -> float:
-    """Kinetic energy per mass of velocities beside the flow."""
-    return float(np.mean((beside(sums, state)**2).sum(axis=0))/2)
 
 
 def beside(sums: Any, state: np.ndarray) -> np.ndarray:
@@ -211,27 +201,21 @@ def slip_length(rows: np.ndarray, h: float) -> float:
     return float(s*L/(np.pi*V))
 
 
-def places(start: str, scene: Any, seed: int) -> np.ndarray:
-    """Places (n, 2) of a lattice, along the box, turned by atan(3/4), or hexagonal; jittered."""
-    box = np.array([scene.width, scene.L])
-    if start == "square":
-        return spam.scattered(scene, seed)
-    if start == "turned":
-        side = np.arange(-round(5*box.max()), round(5*box.max()))
-        i, j = (q.ravel() for q in np.meshgrid(side, side))
-        fifths = np.stack([4*i - 3*j, 3*i + 4*j], axis=1)
-        x = fifths[((fifths >= 0) & (fifths < 5*box)).all(axis=1)]/5 - box/2
-    else:
-        lattice = LATTICES["hexagonal"]
-        cells = tuple(np.round(box/lattice.size).astype(int))
-        x = lattice.places(cells)*box/lattice.box(cells)
+def hexagonal(scene: Any, seed: int) -> np.ndarray:
+    """Places (n, 2) of a jittered hexagonal lattice, stretched by 2 % or less to fit the box."""
+    lattice, box = LATTICES["hexagonal"], np.array([scene.width, scene.L])
+    columns, rows = np.round(box/lattice.size).astype(int)
+    x = lattice.places((columns, rows))*box/lattice.box((columns, rows))
     return x + np.random.default_rng(seed).uniform(-START_JITTER, START_JITTER, x.shape)
+
+
+STARTS = {"square": spam.scattered, "hexagonal": hexagonal}
 
 
 @dataclass(frozen=True, kw_only=True)
 class Stirred(Case):
-    """One flow. U : its exact amplitude, in which it begins. thick : eta over that of Ra 10 000. time : of the
-    run, in those of friction. held : else it decays. corrected : with `Corrected`."""
+    """One flow. U : exact amplitude, as at the start. thick : eta over that of Ra 10 000. time : how long, in
+    those of friction. held : else it decays. corrected : with `Corrected`."""
     variant: Any
     mode: Mode = STIRRED
     rows: int
@@ -265,13 +249,12 @@ class Stirred(Case):
     def run(self, report: Report, folder: Path) -> Outcome:
         method = self.method
         scene = Tile(width=method.box[0], L=method.box[1], law=method.law)
-        x = places(self.start, scene, self.seed)
-        state = spam.at_rest(x, 1.0)
+        state = spam.at_rest(STARTS[self.start](scene, self.seed), 1.0)
         state[2:4] = self.U*method.v(state)
         dt = self.variant.step*step_limit(method, 1.0)
         once = 1/(method.friction*method.k)     # of friction at density 1
         steps = round(self.time*once/dt)
-        series = {"A": of_flow, "stress": of_pressure, "kinetic": of_noise, "noise": noise}
+        series = {"A": of_flow, "stress": of_pressure, "kinetic": of_noise}
         looks = LOOKS if self.held else 4*LOOKS
         plan = Plan(dt=dt, steps=steps, every=max(1, round(once/looks/dt)), series=series,
                     means={"rows": in_rows}, mean_from=SETTLED*self.time*once*self.held)
@@ -289,7 +272,7 @@ class Stirred(Case):
         return {"driven": [key | {
             "mode": self.mode.name, "start": self.start, "U": self.U, "thick": self.thick,
             "walls": self.variant.walls.__name__, "P": 1 - self.variant.fraction,
-            "noise": late["noise"].mean(), "symbol": symbol(method), "early": first, "late": last,
+            "symbol": symbol(method), "early": first, "late": last,
             "slip": slip, "friction": method.friction*A.value,
             **with_errors(flow=A/self.U, excess=method.friction*(self.U - A), stress=stress,
                           kinetic=kinetic)}]}
