@@ -51,7 +51,7 @@ def test_deviators_vanish_on_lattices_and_on_stretched_ones_with_corrected_press
     _, sums, _ = look(case, grid)
     assert isinstance(sums, Corrected) and np.ptp(moments(sums), axis=1).max() < 1e-12
     plain = look(Stirred(variant=PRINTED, rows=24), grid)[1]
-    assert np.abs(stresses(sums)).max() < 1e-12 < 1e-2 < np.abs(stresses(plain)).min(axis=1).max()
+    assert np.abs(stresses(sums)).max() < 1e-12 and np.abs(stresses(plain)).max() > 5e-3
 
 
 def test_stresses_are_a_double_sum_over_pairs():
@@ -70,7 +70,7 @@ def test_stresses_are_a_double_sum_over_pairs():
 @pytest.mark.parametrize("start", list(STARTS))
 def test_starts_fill_the_box_evenly(start):
     x = STARTS[start](RayleighBenard(ra=1e4, L=25.0, aspect=1.0), 1)
-    assert len(x) == pytest.approx(625, abs=25) and np.abs(x.mean(axis=0)).max() < 0.7
+    assert len(x) == pytest.approx(625, rel=0.05) and np.abs(x.mean(axis=0)).max() < 0.7
 
 
 def test_slip_of_an_exact_profile():
@@ -92,7 +92,7 @@ def test_a_law_is_found_again_and_makes_a_fluid_more_viscous():
     found = next(laws(runs))
     assert [found["C"], found["q"]] == pytest.approx([C, q])
     layer = pd.DataFrame([{"ra": 1e4, "thick": x, "q": power, "share": 40.0, "ke": 1/x}
-                          for x in (1.0, 2.0, 3.0) for power in (0.0, 0.5, 1.0)])
+                          for x in (1.0, 1.2, 1.4, 2.0, 3.0) for power in (0.0, 0.5, 1.0)])
     assert thickness(layer, Law(C, q, 0.0), 1.0) == pytest.approx((1.28, 1/1.28), rel=2e-2)
     assert np.isnan(thickness(layer, Law(1.0, q, 0.0), 1.0)[0])
     assert [projected(0.0), projected(1.0)] == pytest.approx([16/np.pi**2, 1.0])

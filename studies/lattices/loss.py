@@ -160,7 +160,7 @@ def roll(b: float) -> tuple[float, float]:
     Trial functions are those of free plates; slip adds w'^2/b of both plates to the friction.
     """
     i = forms(ROLL, PlateKind.FREE, DEGREE)
-    edge = Chebyshev([1, 0, -1])
+    edge = Chebyshev([1, 1])*Chebyshev([1, -1])
     slopes = [2*(edge*Chebyshev.basis(n)).deriv() for n in range(DEGREE)]
     ends = np.array([[slope(z) for slope in slopes] for z in (-1.0, 1.0)])
     friction, none = i.friction + ends.T@ends/max(b, 1e-9), np.zeros_like(i.lift)
