@@ -6,7 +6,6 @@ import pytest
 from continuum.gas.fields import placed
 from continuum.linear import PlateKind, critical_ra
 from continuum.scene import RayleighBenard
-from particles.threads import Threads
 from studies.build.spam import VARIANTS, at_rest
 from studies.lattices.loss import Law, gain, laws, projected, roll, strained, thickness
 from studies.lattices.stirred import (

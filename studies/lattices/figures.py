@@ -4,6 +4,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from studies.kit.figure import Drawing, Drawings, errorbar, figure, look, plain_ticks
+from studies.kit.table import groups
 from studies.lattices.loss import fitted, projected
 
 WEIGHTS = {"Lucy": "Lucy", "Monaghan": "Monaghan", "WendlandC2": "Wendland C2"}
@@ -81,12 +82,13 @@ SERIES = {"printed": "Lucy, h = 3 a", "fixed": "Wendland C2, h = 3 a",
 def stress(driven: pd.DataFrame, laws: pd.DataFrame, foretold: pd.DataFrame) -> Figure:
     """Stress of the pressure sum over rate and pressure; what is left of a flow over rows; K foretold."""
     page, (left, middle, right) = figure(1, 3, width=4.2, height=3.9)
-    runs, law = fitted(driven).query("law == 'printed'"), laws.set_index("variant").loc["printed"]
+    runs = fitted(driven).query("law == 'printed'")
+    C, q = map(float, laws.set_index("variant").loc["printed", ["C", "q"]])
     for number, (P, label) in enumerate(HELD.items()):
         some = runs[np.isclose(runs["P"], P)]
         left.plot(some["J"], some["tau"], **{**look(number), "linestyle": "none"}, label=f"$P$ {label}")
     J = np.geomspace(runs["J"].min(), runs["J"].max(), 50)
-    left.plot(J, projected(law.q)*law.C*J**law.q, color="grey", linewidth=0.9, label=f"$q$ = {law.q:.2f}")
+    left.plot(J, projected(q)*C*J**q, color="grey", linewidth=0.9, label=f"$q$ = {q:.2f}")
     left.set(xscale="log", yscale="log", xlabel=r"friction $\eta\gamma/P$",
              ylabel="stress of the pressure sum / $P$")
     for number, (name, label) in enumerate(SERIES.items()):
@@ -97,8 +99,8 @@ def stress(driven: pd.DataFrame, laws: pd.DataFrame, foretold: pd.DataFrame) -> 
     middle.axhline(1, color="grey", linewidth=0.6)
     middle.set(xscale="log", xlabel="rows", ylabel="amplitude of vortices / exact")
     plain_ticks(middle, [25, 50, 100, 200])
-    for number, (name, some) in enumerate(foretold[foretold["variant"].map(shown)].groupby("variant")):
-        errorbar(right, some["measured"], some["predicted"], some["predicted_err"], number=number, label=name,
+    for number, (kind, some) in enumerate(groups(foretold[foretold["variant"].map(shown)], "variant")):
+        errorbar(right, some["measured"], some["predicted"], some["predicted_err"], number=number, label=kind,
                  xerr=some["measured_err"])
     right.axline((0, 0), slope=1, color="grey", linewidth=0.6)
     right.set(xlabel="K measured / grid", ylabel="K foretold / grid", xlim=(-0.05, 1.3), ylim=(-0.05, 1.3))

@@ -125,7 +125,7 @@ def fitted(driven: pd.DataFrame) -> pd.DataFrame:
     """Runs that a law is fitted to, with J = eta gamma/P and stress over P, of stirred square starts."""
     usual = driven.query("mode == 'stirred' and start == 'square' and not corrected and flow > 0.1")
     steps = usual[usual["variant"].isin(VARIANTS)]
-    steps = steps[[row.h == VARIANTS[row.variant].h for row in steps.itertuples()]]
+    steps = steps[steps["h"] == [VARIANTS[name].h for name in steps["variant"]]]
     steps = steps[~steps["variant"].isin(FAR)]
     return steps.assign(law=steps["variant"].map(family), J=steps["friction"]/steps["P"],
                         tau=steps["stress"]/steps["P"])
@@ -215,14 +215,16 @@ def foretold(tables: Tables, known: dict[str, Law]) -> Iterator[Row]:
     errors = read(RESULTS/"rb"/"errors.csv").query(
         "method == 'spam' and energy == 'Kg' and eos == 'ideal' and transport == 'const-eta' and pr == 1 and "
         f"sides == 'periodic' and resolution >= {LEAST}")
-    for one in errors.itertuples():
-        kind = VARIANTS.get(one.variant)
-        if kind is None or one.variant in FAR or family(kind.name) not in known or one.ra not in layers:
+    for one in errors.to_dict("records"):
+        name, ra, rows = one["variant"], one["ra"], one["resolution"]
+        if name not in VARIANTS or name in FAR or family(name) not in known or ra not in layers:
             continue
-        law, b = known[family(kind.name)], length(slip, kind)
-        x, bulk, K, err = with_slip(layers[one.ra], law, 1 - kind.fraction, b/one.resolution, one.ra)
-        yield {"variant": one.variant, "ra": one.ra, "rows": one.resolution, "x": x, "slip": b, "bulk": bulk,
-               **with_errors(predicted=Measured(K, err), measured=Measured(1 + one.error, one.error_err))}
+        kind, law = VARIANTS[name], known[family(name)]
+        b = length(slip, kind)
+        x, bulk, K, err = with_slip(layers[ra], law, 1 - kind.fraction, b/rows, ra)
+        measured = Measured(1 + one["error"], one["error_err"])
+        yield {"variant": name, "ra": ra, "rows": rows, "x": x, "slip": b, "bulk": bulk,
+               **with_errors(predicted=Measured(K, err), measured=measured)}
 
 
 def with_slip(layer: pd.DataFrame, law: Law, left: float, b: float,
