@@ -209,8 +209,8 @@ def costs() -> Iterator[str]:
     yield f"from {of('own-streams-vortex-crossing')} times the flow's speed on"
     yield f"and {of('own-streams-vortex-fast')} of those of the cheapest"
     yield (f"a vortex of even density at {cheaper('gresho', 'velocity')}, a hot spot at "
-           f"{cheaper('spot', 'temperature')}, a contact at {cheaper('contact', 'density')}, a stripe that is "
-           f"wound up at {cheaper('mixing', 'stripe')}, a wave in shear at {cheaper('shear', 'wave')} times")
+           f"{cheaper('spot', 'temperature')}, a contact at {cheaper('contact', 'density')}, a stripe that "
+           f"is wound up at {cheaper('mixing', 'stripe')}, a wave in shear at {cheaper('shear', 'wave')} times")
     yield f"{percent('own-streams-closed-faces', '.0f')} % of their runs in streams"
 
 

@@ -5,11 +5,15 @@ from itertools import product
 
 from continuum.fluid import IdealGas, VanDerWaals
 from particles.weights import Lucy, Monaghan, Weight, WendlandC2, WendlandC4
+from studies.build.spam import VARIANTS, Variant
 from studies.kit.case import Case
 from studies.kit.table import Table
 from studies.lattices.crystals import LATTICES, Crystal, LatticeGrowth, Onset, Speed
 from studies.lattices.frozen_flow import Freezing
+from studies.lattices.loss import TABLES as LOSS
+from studies.lattices.loss import Thickened
 from studies.lattices.molecules import METHODS, Fate, Reversal, Twins
+from studies.lattices.stirred import PLATES, SHEARED, Stirred
 
 Numbers = tuple[float, ...]
 Seeds = tuple[int, ...]
@@ -29,6 +33,11 @@ UNSTABLE_RANGES = (
     (SQUARE, Monaghan, 2.4, 2.6),
 )
 SEEDS = (1, 2, 3)
+PRESSURES = ("less-static-90", "less-static-50", "more-static-100", "more-static-400")
+#: whose laws of the stress differ from that of the printed scheme
+OTHERS = ("printed-monaghan", "wendland-c2", "wendland-c4", "wendland-c6", "direct", "range-4")
+WALLS = ("printed", "walls-odd", "printed-fixed-rows")
+RAYLEIGH = (2500.0, 3000.0, 3500.0, 5000.0, 10_000.0, 20_000.0, 50_000.0)
 
 
 def cases(size: str) -> list[Case]:
@@ -44,6 +53,11 @@ def quick() -> Iterator[Case]:
     yield from fates((3.0,), (1,))
     yield from molecules((5.0, 20.0), 5, (1,))
     yield from speeds()
+    for U, variant in product((0.05, 0.1, 0.2), ("printed", "less-static-50")):
+        yield Stirred(variant=VARIANTS[variant], rows=25, U=U, time=3.0)
+    yield Stirred(variant=VARIANTS["printed"], rows=25, time=1.0, held=False)
+    yield Stirred(variant=VARIANTS["less-static-90"], mode=PLATES, rows=25, time=3.0)
+    yield Thickened(ra=10_000.0)
 
 
 def paper() -> Iterator[Case]:
@@ -55,6 +69,7 @@ def paper() -> Iterator[Case]:
     yield from freezing()
     yield from molecules((5.0, 10.0, 20.0, 40.0, 60.0, 80.0, 100.0), 15, (1, 2))
     yield from speeds()
+    yield from (*stirred(), *aligned(), *ranges(), *(Thickened(ra=ra) for ra in RAYLEIGH))
 
 
 def growth() -> Iterator[Case]:
@@ -102,6 +117,55 @@ def speeds() -> Iterator[Case]:
         yield Speed(lattice=lattice, weight=weight)
 
 
+def stirred() -> Iterator[Stirred]:
+    """Forces, rows, viscosities, pressures, starts, steps, weights; decays, corrected sums."""
+    printed = VARIANTS["printed"]
+    for rows, U, seed in product((25, 50), (0.02, 0.05, 0.1, 0.2, 0.4), SEEDS):
+        if rows == 25 or seed < 3:
+            yield Stirred(variant=printed, rows=rows, U=U, seed=seed)
+    for rows, seed in ((50, 3), (100, 1), (100, 2)):
+        yield Stirred(variant=printed, rows=rows, seed=seed)
+    for thick, seed in product((0.4, 2.0, 4.0), SEEDS):
+        yield Stirred(variant=printed, rows=25, thick=thick, seed=seed)
+    for name, U, seed in product(PRESSURES, (0.1, 0.2), SEEDS[:2]):
+        yield Stirred(variant=VARIANTS[name], rows=50, U=U, seed=seed)
+    for name, U in product(OTHERS, (0.1, 0.2, 0.4)):
+        yield Stirred(variant=VARIANTS[name], rows=50, U=U)
+    for seed in SEEDS:
+        yield Stirred(variant=printed, rows=25, start="hexagonal", seed=seed)
+        yield Stirred(variant=VARIANTS["printed-half-step"], rows=25, seed=seed)
+        yield Stirred(variant=printed, rows=25, seed=seed, corrected=True)
+    yield Stirred(variant=printed, rows=50, corrected=True)
+    for rows, seed in product((25, 50, 100), SEEDS):
+        yield Stirred(variant=printed, rows=rows, seed=seed, time=1.0, held=False)
+
+
+def aligned() -> Iterator[Stirred]:
+    """Flows along one axis: layers, and what plates add."""
+    for name, seed in product(("printed", *PRESSURES[:2]), SEEDS[:2]):
+        for rows in (25, 50, 100) if name == "printed" else (25, 50):
+            yield Stirred(variant=VARIANTS[name], mode=SHEARED, rows=rows, seed=seed)
+    for name, rows, seed in product(WALLS, (25, 50), SEEDS[:2]):
+        variant = VARIANTS[name]._replace(fraction=0.9)
+        yield Stirred(variant=variant, mode=PLATES, rows=rows, seed=seed, time=4.0)
+
+
+def ranges() -> Iterator[Stirred]:
+    """Wendland's weight at a fixed range, and one like rows^(1/2)    [Zhu, Hernquist & Li 2015]"""
+    for rows, seed in product((25, 50, 100), SEEDS[:2]):
+        fixed = VARIANTS["wendland-c2"]
+        time = 8.0 if rows < 100 else 4.0
+        yield Stirred(variant=fixed, rows=rows, seed=seed, time=time)
+        if rows > 25:
+            yield Stirred(variant=growing(rows), rows=rows, seed=seed, time=time)
+    yield Stirred(variant=growing(200), rows=200, time=2.5)
+
+
+def growing(rows: int) -> Variant:
+    """Of so many rows."""
+    return VARIANTS["wendland-c2"]._replace(h=3.0*(rows/25)**0.5)
+
+
 CRYSTAL = "lattice weight h eos T rho"
 RATES = "predicted measured measured_err"
 RATE = ("growth rate", "1/t0")
@@ -128,4 +192,30 @@ REVERSAL = Table.of("reversal", "integrator weight seed time", "apart equal",
                     means={"time": ("time there", "t0"), "apart": ("rms distance from the start", "a")})
 SPEEDS = Table.of("sound_speeds", "lattice weight", "speed", about="The longest waves along x on a lattice.",
                   means={"speed": ("speed of sound over the fluid's", "")})
-TABLES = (GROWTH, ONSETS, FATES, FREEZING, FREEZING_LIMITS, TWINS, REVERSAL, SPEEDS)
+RUN = "variant h corrected rows seed"
+OVER = "over that of the exact flow"
+DRIVEN = Table.of(
+    "driven", f"{RUN} mode walls start U thick P",
+    "flow flow_err excess excess_err stress stress_err kinetic kinetic_err friction symbol early late "
+    "slip",
+    about="A flow that a force holds, without gravity or heat: who bears the force. Stresses are amplitudes.",
+    means={"mode": ("stirred: vortices; sheared: along x; plates: along x between plates", ""),
+           "corrected": ("pressures times the inverse of M_i", ""),
+           "walls": ("what is behind plates, in the mode plates", ""),
+           "start": ("lattice at the start; hexagonal: 598 particles in 25 rows, density 0.96", ""),
+           "U": ("amplitude of the exact flow", "a/t0"), "thick": ("viscosity over rows/100", ""),
+           "P": ("part of the static pressure that the sums hold", "epsilon/a^2"),
+           "flow": (f"amplitude {OVER}", ""), "excess": ("stress that viscosity leaves over", "epsilon/a^2"),
+           "stress": ("of the pressure sum, a deviator", "epsilon/a^2"),
+           "kinetic": ("stress of the noise", "epsilon/a^2"),
+           "friction": ("stress of viscosity", "epsilon/a^2"),
+           "symbol": ("friction of the scheme on a lattice over the exact one", ""),
+           "early": ("stress in the first half of the means", "epsilon/a^2"),
+           "late": ("in the second one", "epsilon/a^2"), "slip": ("slip length at the plates", "a")})
+DECAYS = Table.of(
+    "decays", RUN, "measured predicted symbol deviator kinetic", about="Vortices that decay by e.",
+    means={"measured": ("viscosity by the decay over the given one", ""), "corrected": ("as in driven", ""),
+           "predicted": ("the sum of the three beside it", ""), "symbol": ("as in driven", ""),
+           "deviator": ("stress of the pressure sum over that of friction, mean over time", ""),
+           "kinetic": ("the same of the noise", "")})
+TABLES = (GROWTH, ONSETS, FATES, FREEZING, FREEZING_LIMITS, TWINS, REVERSAL, SPEEDS, DRIVEN, DECAYS, *LOSS)

@@ -1,0 +1,244 @@
+"""How much convection is lost to the stress of the pressure sum: a law, foretold K, and what was measured.
+
+Stirred particles bear, beside friction eta gamma, the stress
+
+    tau = C P^(1 - q) (eta gamma)^q,        gamma^2 = 2 e:e
+
+C and q are fitted to flows that a force holds. P is the pressure that the sums hold, 1 - fraction of the
+gas's own. Three steps lead to K, none of which knows a particle that convects:
+
+1. Dissipation of tau in a roll is that of a fluid x times as viscous, x = 1 + <tau gamma>/<eta gamma^2>,
+   means over the field of the grid at (Ra/x, Pr x), which is the same gas so much more viscous.
+2. Plates of resting images hold the fluid as if they were b farther away: the slip length, from the flow
+   between plates. Linear theory with v_x = b dv_x/dn gives Ra_c(b) and the dissipation D(b) of a roll per
+   kinetic energy.
+3. K D ~ Nu - 1 ~ 1 - Ra_c/Ra: K = K_grid(Ra/x, x) [1 - Ra_c(b) x/Ra]/[1 - Ra_c(0) x/Ra] D(0)/D(b).
+"""
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+import pandas as pd
+from numpy.polynomial import Chebyshev
+from scipy.interpolate import PchipInterpolator
+from scipy.linalg import block_diag, eigh
+from scipy.special import gamma
+
+from continuum.gas.solve import steady_on
+from continuum.linear import DEGREE, PlateKind, forms
+from continuum.scene import RayleighBenard
+from studies.build.spam import VARIANTS, Variant, images_odd, images_odd_own
+from studies.kit.case import Case, Outcome, Report
+from studies.kit.csvfile import read
+from studies.kit.fits import power_law
+from studies.kit.stats import Measured, combine, with_errors
+from studies.kit.store import RESULTS
+from studies.kit.table import Row, Rows, Table, Tables, groups
+
+GRIDS = (16, 24)                    # rows: K to 1.5 %
+THICK = (1.0, 1.1, 1.2, 1.4, 1.7, 2.0, 2.5, 3.2)
+POWERS = tuple(np.round(np.arange(0, 1.01, 0.2), 1))
+FLOWS = 1800.0          # Ra above which the grid is asked
+ROLL = np.pi            # wave number of two rolls in a layer twice as wide as high
+LEAST = 25              # rows from which a law of many particles is asked for
+USUAL = 0.02            # J of convection at Ra 10 000, where the error of the law is read
+FAR = ("printed-from-flow", "printed-half-step")
+
+THICKENED = Table.of(
+    "thickened", "ra thick q", "ke share", about="The grid's layer, so many times as viscous as at its Ra.",
+    means={"thick": ("viscosity over that of the layer of this Ra", ""), "q": ("power of the law", ""),
+           "share": ("<P^(1-q) (eta gamma)^q gamma>/<eta gamma^2>, of its own viscosity", "")})
+LAWS = Table.of(
+    "laws", "variant", "C C_err q q_err scatter runs",
+    about="tau = C P^(1-q) (eta gamma)^q of stirred particles; one law for all parts of static pressure.",
+    means={"C": ("stress over P where eta gamma = P", ""), "q": ("its power", ""), "runs": ("fitted", ""),
+           "scatter": ("rms of ln(measured/law)", "")})
+FORETOLD = Table.of(
+    "foretold", "variant ra rows", "x slip bulk predicted predicted_err measured measured_err",
+    about="K of smooth particles over that of the grid, seen alike: by the law and as measured.",
+    means={"x": ("viscosity that the law makes, over the given one; none: all rests", ""),
+           "slip": ("slip length of the plates", "a"), "bulk": ("K by the law, without slip", ""),
+           "predicted": ("K by law and slip", ""), "measured": ("Kg of results/rb/errors.csv", "")})
+TABLES = (THICKENED, LAWS, FORETOLD)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Thickened(Case):
+    """The steady layer of an Ra, and of gases more viscous."""
+    ra: float
+
+    @property
+    def cost(self) -> float:
+        return 12.0
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        rows: list[Row] = []
+        for thick in (x for x in THICK if self.ra/x > FLOWS):
+            fields = steady_on(RayleighBenard(ra=self.ra/thick, pr=thick), GRIDS)[-1].fields
+            rate, P, eta, weight, ke = strained(fields, thick)
+            for q in POWERS:
+                share = (weight*P**(1 - q)*(eta*rate)**q*rate).sum()/(weight*eta*rate**2).sum()
+                rows.append({"ra": self.ra, "thick": thick, "q": q, "ke": ke, "share": share})
+        return Outcome({"thickened": rows})
+
+
+def strained(fields: Any, thick: float) -> tuple[np.ndarray, np.ndarray, float, np.ndarray, float]:
+    """Rate of strain gamma and P at nodes, eta of the layer without excess, weights of nodes, K."""
+    at, h = fields.at, fields.h
+    vx, vy, rho, T = (q[:, :-1] for q in (at.vx, at.vy, at.rho, at.T))     # the last column is the first
+
+    def along(q: np.ndarray) -> np.ndarray:
+        return (np.roll(q, -1, axis=1) - np.roll(q, 1, axis=1))/(2*h)
+
+    def up(q: np.ndarray) -> np.ndarray:
+        return np.gradient(q, h, axis=0, edge_order=2)
+    rate = np.hypot(along(vx) - up(vy), along(vy) + up(vx))
+    weight = np.full(vx.shape, 1.0)
+    weight[[0, -1]] = 0.5
+    ke = 0.5*(weight*rho*(vx**2 + vy**2)).sum()/(weight*rho).sum()
+    return rate, rho*T, fields.scene.nu/thick, weight, float(ke)
+
+
+# --- the law --------------------------------------------------------------------------------------
+
+
+def projected(q: float) -> float:
+    """Amplitude along cos kx cos ky of the stress |cos kx cos ky|^q: 4 <|cos cos|^(1 + q)>."""
+    return float(4*(gamma(1 + q/2)/(np.sqrt(np.pi)*gamma(1.5 + q/2)))**2)
+
+
+def family(name: str) -> str:
+    """The variant whose law is also that of this one: only the part of the static pressure differs."""
+    kind = VARIANTS[name]
+    return next(other.name for other in VARIANTS.values() if lawful(other) == lawful(kind))
+
+
+def lawful(kind: Variant) -> tuple:
+    """What a law depends on."""
+    return kind.weight, kind.h, kind.gradients, kind.transport
+
+
+def fitted(driven: pd.DataFrame) -> pd.DataFrame:
+    """Runs that a law is fitted to, with J = eta gamma/P and stress over P, of stirred square starts."""
+    usual = driven.query("mode == 'stirred' and start == 'square' and not corrected and flow > 0.1")
+    steps = usual[usual["variant"].isin(VARIANTS)]
+    steps = steps[steps["h"] == [VARIANTS[name].h for name in steps["variant"]]]
+    steps = steps[~steps["variant"].isin(FAR)]
+    return steps.assign(law=steps["variant"].map(family), J=steps["friction"]/steps["P"],
+                        tau=steps["stress"]/steps["P"])
+
+
+class Law(NamedTuple):
+    """tau of a family; `spread`: relative error of tau at the J of convection."""
+    C: float
+    q: float
+    spread: float
+
+
+def laws(driven: pd.DataFrame) -> Iterator[Row]:
+    """Of all families with three runs or more."""
+    for name, runs in groups(fitted(driven), "law"):
+        if len(runs) > 2:
+            fit = power_law(runs["J"], runs["tau"])
+            q, usual = fit.slope, fit.at(float(np.log(USUAL)))
+            C = float(np.exp(fit.intercept.value))/projected(q.value)
+            yield {"variant": name, "C": C, "C_err": C*fit.intercept.err, "q": q.value, "q_err": q.err,
+                   "scatter": float(np.sqrt(np.mean(fit.residuals**2))), "runs": len(runs),
+                   "spread": usual.err}
+
+
+# --- plates ---------------------------------------------------------------------------------------
+
+
+@cache
+def roll(b: float) -> tuple[float, float]:
+    """(Ra_c, dissipation over eta and kinetic energy) of rolls between plates with slip length b, in heights.
+
+    Trial functions are those of free plates; slip adds w'^2/b of both plates to the friction.
+    """
+    i = forms(ROLL, PlateKind.FREE, DEGREE)
+    edge = Chebyshev([1, 1])*Chebyshev([1, -1])
+    slopes = [2*(edge*Chebyshev.basis(n)).deriv() for n in range(DEGREE)]
+    ends = np.array([[slope(z) for slope in slopes] for z in (-1.0, 1.0)])
+    friction, none = i.friction + ends.T@ends/max(b, 1e-9), np.zeros_like(i.lift)
+    lift = np.block([[none, i.lift], [i.lift.T, none]])
+    work, waves = eigh(lift, block_diag(friction/ROLL**2, i.conduction))
+    w = waves[:DEGREE, -1]
+    return float(work[-1]**-2), float((w@friction@w)/(w@i.inertia@w))
+
+
+def gain(b: float, ra: float) -> float:
+    """K between plates of slip length b, in heights, over that between those that hold."""
+    (least, loss), (usual, whole) = roll(b), roll(0.0)
+    return (1 - least/ra)/(1 - usual/ra)*whole/loss
+
+
+def slips(driven: pd.DataFrame) -> dict[str, Measured]:
+    """Slip length in spacings by what is behind the plates; images that turn v, by definition none."""
+    plates = driven.query("mode == 'plates'")
+    return {walls: combine([(b, 0.0) for b in runs["slip"]]) for walls, runs in groups(plates, "walls")}
+
+
+def length(slip: dict[str, Measured], kind: Variant) -> float:
+    """Of a variant; nan where it was not measured."""
+    odd = kind.walls in (images_odd, images_odd_own)
+    name = "images_odd" if odd else "fixed_rows" if kind.walls.__name__ == "fixed_rows" else "images"
+    return slip[name].value if name in slip else np.nan
+
+
+# --- K --------------------------------------------------------------------------------------------
+
+
+def thickness(layer: pd.DataFrame, law: Law, left: float) -> tuple[float, float]:
+    """(x, K_grid(Ra/x, x)/K_grid(Ra, 1)) of a layer at one Ra with so much of the pressure left; none: rests.
+
+    Of several x the least, which a flow that is strong at first finds.
+    """
+    by = layer.pivot(index="thick", columns="q", values="share")
+    share = np.exp([PchipInterpolator(by.columns, row)(law.q) for row in np.log(by.to_numpy())])
+    ke = layer.groupby("thick")["ke"].first()
+    x = np.linspace(1, by.index[-1], 2001)
+    asked = 1 + law.C*left**(1 - law.q)*PchipInterpolator(by.index, share)(x)
+    settled = np.flatnonzero(x >= asked)
+    if not len(settled):
+        return np.nan, 0.0
+    found = float(x[settled[0]])
+    return found, float(np.exp(PchipInterpolator(ke.index, np.log(ke/ke.iloc[0]))(found)))
+
+
+def foretold(tables: Tables, known: dict[str, Law]) -> Iterator[Row]:
+    """K of what `results/rb` has, of laws and Ra that were run."""
+    layers, slip = dict(groups(tables["thickened"], "ra")), slips(tables["driven"])
+    errors = read(RESULTS/"rb"/"errors.csv").query(
+        "method == 'spam' and energy == 'Kg' and eos == 'ideal' and transport == 'const-eta' and pr == 1 and "
+        f"sides == 'periodic' and resolution >= {LEAST}")
+    for one in errors.to_dict("records"):
+        name, ra, rows = one["variant"], one["ra"], one["resolution"]
+        if name not in VARIANTS or name in FAR or family(name) not in known or ra not in layers:
+            continue
+        kind, law = VARIANTS[name], known[family(name)]
+        b = length(slip, kind)
+        x, bulk, K, err = with_slip(layers[ra], law, 1 - kind.fraction, b/rows, ra)
+        measured = Measured(1 + one["error"], one["error_err"])
+        yield {"variant": name, "ra": ra, "rows": rows, "x": x, "slip": b, "bulk": bulk,
+               **with_errors(predicted=Measured(K, err), measured=measured)}
+
+
+def with_slip(layer: pd.DataFrame, law: Law, left: float, b: float,
+              ra: float) -> tuple[float, float, float, float]:
+    """(x, K without slip, K with it, its error: of the law)."""
+    tried = [thickness(layer, law._replace(C=law.C*(1 + s*law.spread)), left) for s in (0, -1, 1)]
+    middle, more, less = (bulk*gain(b, ra/x) if bulk else 0.0 for x, bulk in tried)
+    return *tried[0], middle, (more - less)/2
+
+
+def derive(tables: Tables) -> Rows:
+    """Laws, and K that they foretell."""
+    if not {"driven", "thickened"} <= tables.keys():
+        return {}
+    found = list(laws(tables["driven"]))
+    known = {row["variant"]: Law(row["C"], row["q"], row.pop("spread")) for row in found}
+    return {"laws": found, "foretold": list(foretold(tables, known))}

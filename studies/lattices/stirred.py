@@ -1,0 +1,294 @@
+"""Which stress do particles bear beside that of friction? Flows that a force holds or that decay.
+
+A gas of T = 1 in a periodic box or between plates; the force n eta k^2 U v(x) holds U v(x) exactly, of whose
+stress n eta k U d(x) is the amplitude. A run ends with A v(x), and with three more amplitudes along d:
+
+    excess     n eta k (U - A), what friction of the given eta does not bear
+    stress     that of the pressure sum, the deviator of 1/2 sum_j m (P_i/rho_i^2 + P_j/rho_j^2) r_ji grad w
+    kinetic    that of the particles' noise
+
+A fluid has none of these: M_i = sum_j V_j r_ji grad w is the unit matrix there, so that P M_i is a pressure.
+"""
+from collections.abc import Callable
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from continuum.fluid import ConstEta
+from continuum.sides import Periodic
+from particles.limits import lattice_sums, step_limit
+from particles.pairs import entries
+from particles.run import Plan, Run, run
+from particles.smooth.spam import Spam
+from particles.smooth.sums import Direct, Nested
+from studies.build import spam
+from studies.build.names import START_JITTER
+from studies.build.scenes import Tile
+from studies.kit.case import Case, Outcome, Report
+from studies.kit.stats import mean, with_errors
+from studies.lattices.crystals import LATTICES
+
+SETTLED = 1/3           # of a run, before means: three turns and more of the flow
+LOOKS = 10              # in the time that friction takes to slow a flow by e
+ETA = 0.01              # over L: viscosity of KHP95's gas at Ra 10 000
+CHANNEL = 25            # columns of flows along x: longer waves of an unstable shear flow find no room
+Flowing = Callable[[np.ndarray], np.ndarray]     # of phases k (x, y), (2, n)
+
+
+class Mode(NamedTuple):
+    """A flow v of wave number k = halves pi/L; its strain is n U k/2 times d = ((xx - yy)/2, xy)."""
+    name: str
+    v: Flowing
+    d: Flowing
+    n: int = 1
+    halves: int = 2
+    phase: float = 0.0
+
+
+def swirl(p: np.ndarray) -> np.ndarray:
+    """Taylor and Green's vortices, whose convection is a pressure."""
+    return np.array([np.sin(p[0])*np.cos(p[1]), -np.cos(p[0])*np.sin(p[1])])
+
+
+def stretch(p: np.ndarray) -> np.ndarray:
+    return np.array([np.cos(p[0])*np.cos(p[1]), 0*p[0]])
+
+
+def slide(p: np.ndarray) -> np.ndarray:
+    return np.array([np.sin(p[1]), 0*p[0]])
+
+
+def slope(p: np.ndarray) -> np.ndarray:
+    return np.array([0*p[0], np.cos(p[1])])
+
+
+STIRRED = Mode("stirred", swirl, stretch, n=2)
+SHEARED = Mode("sheared", slide, slope)
+PLATES = Mode("plates", slide, slope, halves=1, phase=np.pi/2)
+
+
+class Layer(Tile):
+    """The same between plates that rest."""
+    sides = Periodic()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Driven(Spam):
+    """Smooth particles that a force drives in a mode, as large as holds a flow of amplitude 1 times U."""
+    mode: Mode
+    U: float
+
+    @property
+    def k(self) -> float:
+        return self.mode.halves*np.pi/self.box[1]
+
+    @property
+    def friction(self) -> float:
+        """Amplitude of the stress of friction in a flow of amplitude 1."""
+        return self.mode.n*self.law.eta*self.k
+
+    def v(self, state: np.ndarray) -> np.ndarray:
+        return self.mode.v(self.k*state[:2] + self.mode.phase)
+
+    def d(self, state: np.ndarray) -> np.ndarray:
+        return self.mode.d(self.k*state[:2] + self.mode.phase)
+
+
+class Push(Nested):
+    """Sums with the force; energies stay."""
+
+    def rates(self, state: np.ndarray, out: np.ndarray) -> None:
+        super().rates(state, out)
+        method = self.method
+        out[2:4] += method.friction*method.k*method.U*method.v(state)
+        out[4] = 0.0
+
+    def tensor(self) -> np.ndarray:
+        """(3, points): xx, xy, yy of what stands for P/rho^2 in the sum."""
+        P = self.less/self.around.rho**2
+        return np.array([P, 0*P, P])
+
+
+class PushAlong(Push, Direct):
+    """The same with friction along pairs."""
+    symbol = Direct.symbol
+    allocate, prepare, exchange = Direct.allocate, Direct.prepare, Direct.exchange
+
+
+class Corrected(Push):
+    """P_i M_i^-1 in place of P_i: the pressure sum of a lattice has no deviator, sheared or not."""
+
+    def tensor(self) -> np.ndarray:
+        xx, xy, yy = moments(self)
+        return self.less/self.around.rho**2/(xx*yy - xy**2)*np.array([yy, -xy, xx])
+
+    def exchange(self, less: np.ndarray) -> tuple[Any, np.ndarray]:
+        term, flux = super().exchange(less)
+        change = self.tensor() - super().tensor()
+        for name, part in zip(("xx", "xy", "yx", "yy"), change[[0, 1, 1, 2]]):
+            flux[name] += part
+        return term, flux
+
+
+def moments(sums: Nested) -> np.ndarray:
+    """M_i as (3, points): xx, xy, yy."""
+    around, pairs = sums.around, sums.around.pairs
+    row, entry = entries(pairs, np.arange(sums.n))
+    near = pairs.near[entry]
+    dx, dy = ((q[near] - q[row])/around.rho[near] for q in (around.x, around.y))
+    M = np.ones((3, len(around.x)))
+    for part, product in zip(M, (dx*pairs.wx[entry], dx*pairs.wy[entry], dy*pairs.wy[entry])):
+        part[:sums.n] = np.bincount(row, product, sums.n)
+    for _, parent, first, last in around.blocks:
+        M[:, first:last] = M[:, parent]
+    return M
+
+
+def stresses(sums: Any) -> np.ndarray:
+    """(2, n): (xx - yy)/2 and xy of the stress of the pressure sum, of each particle."""
+    around, pairs, n = sums.around, sums.around.pairs, sums.n
+    row, entry = entries(pairs, np.arange(n))
+    near, wx, wy = pairs.near[entry], pairs.wx[entry], pairs.wy[entry]
+    P = sums.tensor()
+    xx, xy, yy = P[:, row] + P[:, near]
+    fx, fy = xx*wx + xy*wy, xy*wx + yy*wy
+    dx, dy = (q[row] - q[near] for q in (around.x, around.y))
+    return np.array([np.bincount(row, q, n)/4 for q in (fx*dx - fy*dy, fx*dy + fy*dx)])
+
+
+def of_pressure(sums: Any, state: np.ndarray) -> float:
+    """Amplitude of the stress of the pressure sum."""
+    return amplitude(stresses(sums), sums.method.d(state))
+
+
+def of_noise(sums: Any, state: np.ndarray) -> float:
+    """Amplitude of the stress -rho v v of velocities beside the flow."""
+    u, v = beside(sums, state)
+    return amplitude(np.array([(v*v - u*u)/2, -u*v]), sums.method.d(state))
+
+
+def of_flow(sums: Any, state: np.ndarray) -> float:
+    """Amplitude of the velocity."""
+    return amplitude(state[2:4], sums.method.v(state))
+
+
+def beside(sums: Any, state: np.ndarray) -> np.ndarray:
+    return state[2:4] - of_flow(sums, state)*sums.method.v(state)
+
+
+def amplitude(field: np.ndarray, shape: np.ndarray) -> float:
+    """Of the shape in a field, both (2, n), by least squares."""
+    return float(np.sum(field*shape)/np.sum(shape**2))
+
+
+def in_rows(sums: Any, state: np.ndarray) -> np.ndarray:
+    """(2, rows): particles and their momentum along x, by height."""
+    L = sums.method.box[1]
+    row = np.clip((state[1] + L/2).astype(int), 0, round(L) - 1)
+    return np.array([np.bincount(row, q, round(L)) for q in (np.ones(sums.n), state[2])])
+
+
+def slip_length(rows: np.ndarray, h: float) -> float:
+    """Spacings beyond a plate where the velocity would vanish: of s + V cos(pi y/L), fitted farther than h
+    from the plates, s L/(pi V)."""
+    L = rows.shape[1]
+    y = np.arange(L) + 0.5 - L/2
+    far = np.abs(y) < L/2 - h
+    s, V = np.linalg.lstsq(np.stack([np.ones(L), np.cos(np.pi*y/L)], axis=1)[far], (rows[1]/rows[0])[far],
+                           rcond=None)[0]
+    return float(s*L/(np.pi*V))
+
+
+def hexagonal(scene: Any, seed: int) -> np.ndarray:
+    """Places (n, 2) of a jittered hexagonal lattice, stretched by 2 % or less to fit the box."""
+    lattice, box = LATTICES["hexagonal"], np.array([scene.width, scene.L])
+    columns, rows = np.round(box/lattice.size).astype(int)
+    x = lattice.places((columns, rows))*box/lattice.box((columns, rows))
+    return x + np.random.default_rng(seed).uniform(-START_JITTER, START_JITTER, x.shape)
+
+
+STARTS = {"square": spam.scattered, "hexagonal": hexagonal}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Stirred(Case):
+    """One flow. U : exact amplitude, as at the start. thick : eta over that of Ra 10 000. time : how long, in
+    those of friction. held : else it decays. corrected : with `Corrected`."""
+    variant: Any
+    mode: Mode = STIRRED
+    rows: int
+    U: float = 0.2
+    thick: float = 1.0
+    start: str = "square"
+    time: float = 8.0
+    held: bool = True
+    corrected: bool = False
+    seed: int = 1
+
+    @property
+    def width(self) -> int:
+        return self.rows if self.mode is STIRRED else CHANNEL
+
+    @property
+    def cost(self) -> float:
+        steps = self.time*self.rows/(ETA*4*self.thick*self.mode.halves**2*self.mode.n)
+        return 0.2 + 7e-7*(1 + 9*self.corrected)*self.variant.h*self.width*self.rows*steps
+
+    @property
+    def method(self) -> Driven:
+        eta = ETA*self.thick*self.rows
+        kind = Layer if self.mode is PLATES else Tile
+        scene = kind(width=float(self.width), L=float(self.rows), law=ConstEta(eta, eta))
+        plain = spam.method(scene, self.variant)
+        pushed = Corrected if self.corrected else PushAlong if plain.transport is Direct else Push
+        values = {one.name: getattr(plain, one.name) for one in fields(Spam)} | {"transport": pushed}
+        return Driven(**values, mode=self.mode, U=self.U*self.held)
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        method = self.method
+        scene = Tile(width=method.box[0], L=method.box[1], law=method.law)
+        state = spam.at_rest(STARTS[self.start](scene, self.seed), 1.0)
+        state[2:4] = self.U*method.v(state)
+        dt = self.variant.step*step_limit(method, 1.0)
+        once = 1/(method.friction*method.k)     # of friction at density 1
+        steps = round(self.time*once/dt)
+        series = {"A": of_flow, "stress": of_pressure, "kinetic": of_noise}
+        looks = LOOKS if self.held else 4*LOOKS
+        plan = Plan(dt=dt, steps=steps, every=max(1, round(once/looks/dt)), series=series,
+                    means={"rows": in_rows}, mean_from=SETTLED*self.time*once*self.held)
+        done = run(method, state, plan, report)
+        key = {"variant": self.variant.name, "h": self.variant.h, "corrected": self.corrected,
+               "rows": self.rows, "seed": self.seed, "cpu_s": done.cpu_s}
+        return Outcome(self.ended(method, done, key) if self.held else self.decayed(method, done, key))
+
+    def ended(self, method: Driven, done: Run, key: dict[str, Any]) -> dict[str, list[dict[str, Any]]]:
+        """A row of `driven`."""
+        late = {name: np.array(values)[round(SETTLED*len(values)):] for name, values in done.series.items()}
+        A, stress, kinetic = (mean(late[name]) for name in ("A", "stress", "kinetic"))
+        first, last = (half.mean() for half in np.array_split(late["stress"], 2))
+        slip = slip_length(done.means["rows"], method.weight.h) if self.mode is PLATES else np.nan
+        return {"driven": [key | {
+            "mode": self.mode.name, "start": self.start, "U": self.U, "thick": self.thick,
+            "walls": self.variant.walls.__name__, "P": 1 - self.variant.fraction,
+            "symbol": symbol(method), "early": first, "late": last,
+            "slip": slip, "friction": method.friction*A.value,
+            **with_errors(flow=A/self.U, excess=method.friction*(self.U - A), stress=stress,
+                          kinetic=kinetic)}]}
+
+    def decayed(self, method: Driven, done: Run, key: dict[str, Any]) -> dict[str, list[dict[str, Any]]]:
+        """A row of `decays`: viscosity that the decay shows, and what the parts of the stress make of it."""
+        A, stress, kinetic = (np.array(done.series[name]) for name in ("A", "stress", "kinetic"))
+        rate = method.friction*method.k
+        parts = [float(np.mean(q/(method.friction*A))) for q in (stress, kinetic)]
+        return {"decays": [key | {
+            "measured": float(np.log(self.U/A[-1])/(rate*done.times[-1])), "symbol": symbol(method),
+            "deviator": parts[0], "kinetic": parts[1], "predicted": symbol(method) + sum(parts)}]}
+
+
+def symbol(method: Driven) -> float:
+    """Friction of the scheme over the exact one, for waves as long as the flow's on a square lattice."""
+    k = method.k*np.array([method.mode is STIRRED, 1.0])
+    sums = lattice_sums(method.weight, 1.0, 1.0, k[None])
+    return float(getattr(sums, method.transport.symbol)[0]/(k@k))
