@@ -6,6 +6,11 @@ ARGS   ?=
 # of a Dask cluster on which the cases of studies run: tcp://host:port
 SCHEDULER ?=
 
+# what is wrong is said before anything is set up
+$(if $(filter quick paper fine,$(SIZE)),,$(error unknown size '$(SIZE)': choose one of quick, paper, fine, as in SIZE=quick))
+$(if $(SCHEDULER),$(if $(and $(filter tcp://% tls://% ws://% wss://%,$(SCHEDULER)),$(word 3,$(subst :, ,$(SCHEDULER)))),,\
+	$(error SCHEDULER=$(SCHEDULER) is no address of a Dask scheduler: give tcp://host:port)))
+
 run     := .venv/bin/python
 # a study is a folder that can be run; kit and build serve them
 studies := $(filter-out report front judge,$(patsubst studies/%/__main__.py,%,$(wildcard studies/*/__main__.py)))

@@ -61,6 +61,7 @@ class Domain:
     def __post_init__(self):
         check_sides(self.four)
         positive(L=self.L, eta=self.eta, k=self.k, aspect=self.aspect)
+        positive(**{"L^2/eta": self.L*self.L/self.eta, "aspect L": self.width})
         if not isfinite(self.g) or (self.g and isinstance(self.sides, Torus)):
             raise ValueError(f"g must be finite, and 0 where nothing stands below, got {self.g}: give the "
                              "box a bottom and a top")

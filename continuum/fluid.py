@@ -10,12 +10,36 @@ import numpy as np
 
 from continuum.jit import formula, generic
 
+#: of laws; those of another name may have either sign
+NOT_NEGATIVE = ("b", "eta", "k", "nu", "kappa")
 
+
+def _numbers(kind: type) -> type:
+    """A law whose numbers are refused where they are infinite, none, negative where that means nothing."""
+    plain: Any = kind.__new__
+
+    def checked(cls: type, *args: Any, **named: Any) -> Any:
+        law = plain(cls, *args, **named)
+        for name, value in zip(law._fields, law):
+            if np.asarray(value).dtype.kind not in "iuf" or not np.isfinite(value).all():
+                raise ValueError(f"{name} of {kind.__name__} must be a finite number, got {value!r}")
+            if name in NOT_NEGATIVE and not np.all(np.asarray(value) >= 0):
+                raise ValueError(f"{name} of {kind.__name__} must not be negative, got {value}: 0 "
+                                 "switches it off")
+            if name == "cv" and not np.all(np.asarray(value) > 0):
+                raise ValueError(f"cv of {kind.__name__} must be positive, got {value}: heat would cool")
+        return law
+    setattr(kind, "__new__", checked)  # noqa: B010  (mypy allows it so)
+    return kind
+
+
+@_numbers
 class IdealGas(NamedTuple):
     """P = rho e, T = e: two-dimensional ideal gas, C_V = 1    [KHP95, Eq. 1]"""
     cv: float = 1.0
 
 
+@_numbers
 class VanDerWaals(NamedTuple):
     """P = rho T/(1 - rho b) - a rho^2, e = T - a rho    [KHP95, Eq. 2]"""
     a: float = 0.5
@@ -23,6 +47,7 @@ class VanDerWaals(NamedTuple):
     cv: float = 1.0
 
 
+@_numbers
 class DenseFluid(NamedTuple):
     """Quadratic fit to molecular dynamics about rho = 1, T = 1, e = 1.443    [KHP95, Eq. 3]
 
@@ -161,29 +186,14 @@ def check_state(eos, rho: Any, e: Any) -> None:
                          f"{type(eos).__name__}: {rule}rho, T and c^2 must be positive")
 
 
-def _spreading(kind: type) -> type:
-    """A law whose first two numbers are refused where they are negative or no numbers."""
-    plain: Any = kind.__new__
-
-    def checked(cls: type, *args: Any, **named: Any) -> Any:
-        law = plain(cls, *args, **named)
-        for name, value in zip(law._fields[:2], law):
-            if not np.all(np.asarray(value) >= 0):
-                raise ValueError(f"{name} of {kind.__name__} must not be negative, got {value}: momentum or "
-                                 "heat would gather in place of spreading; 0 switches it off")
-        return law
-    setattr(kind, "__new__", checked)  # noqa: B010  (mypy allows it so)
-    return kind
-
-
-@_spreading
+@_numbers
 class ConstEta(NamedTuple):
     """Constant shear viscosity eta and conductivity k, bulk viscosity 0    [KHP95, Sec. IV, first choice]"""
     eta: float
     k: float
 
 
-@_spreading
+@_numbers
 class ConstNu(NamedTuple):
     """Constant nu = eta/rho and diffusivity kappa = k/(rho C_V)    [KHP95, Sec. IV, second]"""
     nu: float
@@ -191,7 +201,7 @@ class ConstNu(NamedTuple):
     cv: float = 1.0
 
 
-@_spreading
+@_numbers
 class PowerLaw(NamedTuple):
     """eta and k proportional to rho^m T^n: an example of transport as a function of the state."""
     eta: float

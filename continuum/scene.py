@@ -71,6 +71,11 @@ class RayleighBenard:
                             f"{laws}, without quotes or numbers, which follow from ra and pr")
         for T in (self.T_hot, self.T_cold):
             fluid.check_state(self.eos, 1.0, fluid.energy(self.eos, 1.0, T))
+        try:
+            positive(g=self.g, nu=self.nu, k=self.k, time=self.viscous_time, width=self.width)
+        except (OverflowError, ZeroDivisionError) as error:
+            raise ValueError(f"no float holds nu or L^2/nu of L = {self.L:g}, ra = {self.ra:g}: take L = 50, "
+                             "which only fixes the units") from error
         check_formulas(self.law, fluid.viscosity, fluid.conductivity)
         given = [float(q(self.law, 1.0, self.T_mean)) for q in (fluid.viscosity, fluid.conductivity)]
         if not np.allclose(given, [self.nu, self.k]):

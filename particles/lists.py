@@ -11,11 +11,12 @@ from particles.method import Sums
 from particles.neighbours import farthest, make_lists, sort_into_cells
 from particles.pairs import empty_pairs, weigh
 from particles.threads import Threads
-from particles.walls import confine, fixed_points, move_images, parents, place_images
+from particles.walls import check_ends, confine, fixed_points, move_images, parents, place_images
 from particles.walls.mirror import Mirror
-from particles.walls.periodic import wrap
+from particles.walls.periodic import Shift, wrap
 
 EMPTY = np.empty(0)
+ROUND_OFF = 1e-12       # of places: that of some thousand operations
 MARGIN = 1.25  # a particle may speed up within a step by this factor before the lists miss a pair
 
 
@@ -25,11 +26,15 @@ def fastest(state: np.ndarray) -> float:
 
 
 def outside(walls: tuple, state: np.ndarray) -> np.ndarray:
-    """Numbers of the particles that walls would reflect; periodic sides have no beyond."""
+    """Numbers of the particles that walls would reflect, or that are more than a period beyond their box."""
     inside = state.copy()
     for wall in walls:
         confine(wall, inside)
-    return np.flatnonzero((inside[:2] != state[:2]).any(axis=0))
+    lost = (inside[:2] != state[:2]).any(axis=0)
+    for wall in walls:
+        if isinstance(wall, Shift):
+            lost |= np.abs(state[wall.axis]) > 3*(1 + ROUND_OFF)*abs(wall.near)
+    return np.flatnonzero(lost)
 
 
 class PairLists:
@@ -46,6 +51,7 @@ class PairLists:
         if 2*weight.h > min(box):
             raise ValueError(f"the weight's diameter 2 h = {2*weight.h:g} is wider than the box {box[0]:g} x "
                              f"{box[1]:g}: take more particles or a shorter range")
+        check_ends(walls, box)
         self.weight, self.walls, self.skin, self.threads, self.n = weight, walls, skin, threads, n
         holding = [wall for wall in walls if type(wall) in fixed_points.kinds]
         held = [fixed_points(wall, *box) for wall in holding] or [(EMPTY, EMPTY, EMPTY)]

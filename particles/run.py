@@ -90,7 +90,11 @@ def _record(plan: Plan, sums, now: Run) -> None:
 
 def _particles(method, start: ArrayLike) -> np.ndarray:
     """The start as an array (fields, n) of float64."""
-    state = np.asarray(start, float)
+    given = np.asanyarray(start)
+    if given.dtype.kind not in "iuf" or isinstance(given, np.ma.MaskedArray):
+        raise TypeError(f"particles are an array of numbers, got {type(given).__name__} of {given.dtype}: "
+                        "give real ones, without a mask")
+    state = np.asarray(given, float)
     if state.ndim != 2 or state.shape[0] != len(method.names) or state.shape[1] < 1:
         raise ValueError(f"particles are an array ({len(method.names)}, n) of {', '.join(method.names)} with "
                          f"n >= 1, got {state.shape}")

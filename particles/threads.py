@@ -2,6 +2,7 @@
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from itertools import pairwise
+from numbers import Integral
 from typing import Any
 
 from continuum.jit import overload
@@ -11,7 +12,7 @@ class Threads:
     """Calls a compiled function(first, last, ...) on equal ranges of rows, one a thread: bitwise the same."""
 
     def __init__(self, number: int = 1):
-        if number < 1:
+        if not (isinstance(number, Integral) and number >= 1):
             raise ValueError(f"the number of threads must be at least 1, got {number}")
         self.number = number
         self._pool = ThreadPoolExecutor(number - 1) if number > 1 else None

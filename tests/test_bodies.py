@@ -146,6 +146,7 @@ AT = lattice((10, 12))
 
 @pytest.mark.parametrize(("make", "words"), [
     (lambda: held(np.empty(0, int)), "0 points are to be held"),
+    (lambda: held([-1]), r"whole numbers from 0 on, got \[-1\]"),
     (lambda: held(np.array([4, 4, 5])), "3 points are to be held, 2 of them different"),
     (lambda: held(np.array([1]), T=-1.0), "T = -1, which must be positive"),
     (lambda: in_disc(AT, 4.5), r"radius 4\.5 in a box"),

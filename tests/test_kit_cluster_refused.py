@@ -6,13 +6,18 @@ from types import SimpleNamespace
 
 import pytest
 
-from studies.kit import cluster, csvfile
+from studies.kit import cluster, csvfile, key
 from studies.kit.case import Case, Outcome
 from studies.kit.cluster import check_scheduler, check_worker, packed, unpacked
 from studies.kit.dispatch import THREADS
 from studies.kit.store import CannotRun
 from studies.kit.study import Study, main
 from studies.kit.table import Table
+
+
+def test_the_scheduler_that_the_text_starts_listens_on_this_machine_alone():
+    text = (key.ROOT/"results/README.md").read_text()
+    assert text.count("dask scheduler") == text.count("dask scheduler --host 127.0.0.1 --no-dashboard`") == 1
 
 
 @dataclass(frozen=True, kw_only=True)

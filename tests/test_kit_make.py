@@ -89,6 +89,15 @@ def test_a_worker_is_told_that_it_needs_the_address_of_a_scheduler_before_anythi
     assert code and "make worker SCHEDULER=tcp://host:port: the address that dask scheduler" in text
 
 
+@pytest.mark.parametrize(("words", "told"), [
+    (["worker", "SCHEDULER=foo"], "SCHEDULER=foo is no address of a Dask scheduler: give tcp://host:port"),
+    (["study-one", "SCHEDULER=tcp://foo"], "SCHEDULER=tcp://foo is no address"),
+    (["report", "SIZE=foo"], "unknown size 'foo': choose one of quick, paper, fine")])
+def test_a_word_that_is_wrong_is_refused_in_one_line_before_anything_is_set_up(make, tmp_path, words, told):
+    code, text = make(*words)
+    assert code and told in text and len(text.splitlines()) == 1 and not (tmp_path/".venv").exists()
+
+
 def test_two_that_set_up_at_once_do_it_once_beside_the_environment_that_runs(make, tmp_path):
     set_up(tmp_path, "ready")
     os.utime(tmp_path/".venv/ready", (0, 0))

@@ -32,6 +32,21 @@ class Step(Case):
         return Outcome({"steps": [{"x": self.x}]})
 
 
+class Fuse(str):
+    """Name of a file with a letter for each process that it shall end as it is opened there."""
+
+    def __reduce__(self):
+        return opened, (str(self),)
+
+
+def opened(name):
+    left = Path(name).read_text()
+    if left:
+        Path(name).write_text(left[1:])
+        os._exit(9)
+    return Fuse(name)
+
+
 def pid(folder, x):
     path = folder/f"pid-{x}"
     return int(path.read_text()) if path.exists() and path.read_text() else 0
@@ -55,6 +70,17 @@ def test_a_worker_that_dies_takes_along_no_case_of_another(tmp_path):
     assert "its worker process died, perhaps for want of memory" in failure.message
     assert [kept(case, tmp_path/"raw") is None for case in cases] == [True, False, False]
     assert not any(alive(pid(tmp_path, x)) for x in (1, 2, 3))
+
+
+def test_a_case_whose_worker_dies_at_its_start_gets_another_one_and_fails_after_the_third(tmp_path):
+    for name, left in (("once", "x"), ("ever", "x"*9)):
+        (tmp_path/name).write_text(left)
+    cases = [Step(x=float(x), folder=str(tmp_path), waits=Fuse(tmp_path/name) if name else "")
+             for x, name in enumerate(("", "once", "ever", ""))]
+    failure, = run(cases, tmp_path/"raw", 1)
+    assert failure.label == cases[2].label and failure.message.startswith("3 worker processes died before")
+    assert [kept(case, tmp_path/"raw") is None for case in cases] == [False, False, True, False]
+    assert (tmp_path/"ever").read_text() == "x"*6
 
 
 def test_workers_that_end_before_they_begin_a_case_are_told(tmp_path, monkeypatch):

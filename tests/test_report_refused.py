@@ -70,6 +70,14 @@ def test_a_figure_that_is_broken(small, capsys):
     assert "toy.png is no picture" in refused(small, capsys)
 
 
+def test_a_link_that_leads_out_of_the_folder(small, tmp_path, capsys):
+    write_page(small)
+    (tmp_path/"secret.md").write_text("secret")
+    (small/"findings.md").unlink(missing_ok=True)
+    (small/"findings.md").symlink_to(tmp_path/"secret.md")
+    assert "findings.md leads out of" in refused(small, capsys)
+
+
 def test_a_film_that_is_missing_or_broken(small, capsys):
     words = {"method": "gone", "caption": "c", "size": "fine", "commit": "abc"}
     row = {**dict.fromkeys(FILMS.columns, 1.0), "seed": 1, **words}

@@ -53,7 +53,7 @@ def test_checkpoints_on_the_way_change_nothing(tmp_path, uninterrupted):
 
 def half_done(tmp_path, **other):
     method, start = small()
-    plan = replace(PLAN, checkpoint=tmp_path/"run.h5", checkpoint_seconds=1e9)
+    plan = replace(PLAN, checkpoint=f"{tmp_path}/run.h5", checkpoint_seconds=1e9)
     with pytest.raises(KeyboardInterrupt):
         run(method, start, plan, stop_half_way)
     return method, start, replace(plan, **other)
@@ -178,10 +178,23 @@ def test_energy_below_zero_is_refused_at_the_start():
     (lambda m, s: (m, s.T, PLAN), r"particles are an array \(5, n\) of x, y, vx, vy, e .* got \(128, 5\)"),
     (lambda m, s: (m, [[1.0, 2.0], [3.0]], PLAN), "inhomogeneous"),
     (lambda m, s: (replace(m, weight=Lucy.of(5.0)), s, PLAN), "wider than the box"),
+    (lambda m, s: (replace(m, box=(16.0, 10.0)), s, PLAN), "not at an end of the box 16 x 10"),
+    (lambda m, s: (replace(m, walls=(*m.walls, m.walls[0])), s, PLAN), "another wall is there already"),
+    (lambda m, s: (replace(m, walls=m.walls[:3]), s, PLAN), "periodic at one end along axis 0 only"),
+    (lambda m, s: (m, s + [[33.0], [0], [0], [0], [0]], PLAN), "beyond a wall of the box"),
+    (lambda m, s: (m, s, replace(PLAN, threads=np.nan)), "threads must be at least 1, got nan"),
+    (lambda m, s: (m, s, replace(PLAN, checkpoint_seconds=np.nan)), "checkpoint_seconds must be 0 or more"),
 ])
 def test_what_cannot_work_is_refused(change, message):
     with pytest.raises(ValueError, match=message):
         run(*change(*small()))
+
+
+@pytest.mark.parametrize("kind", [complex, str, bool, object, np.ma.MaskedArray])
+def test_particles_that_are_no_plain_numbers_are_refused(kind):
+    method, start = small()
+    with pytest.raises(TypeError, match="give real ones, without a mask"):
+        run(method, kind(start) if kind is np.ma.MaskedArray else start.astype(kind), PLAN)
 
 
 def test_a_step_above_the_limit_is_told_what_is_stable_and_what_the_studies_take():

@@ -1,6 +1,8 @@
 """The scene: what is derived from Ra, and the motionless state and the rolls that it knows."""
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from continuum.fluid import (
     EQUATIONS_OF_STATE,
@@ -111,6 +113,16 @@ def test_rolls_that_do_not_fit_are_refused():
 def test_what_is_no_number_or_no_object_is_refused(wrong, words):
     with pytest.raises(TypeError, match=words):
         RayleighBenard(**{"ra": 1000.0, **wrong})
+
+
+@given(**dict.fromkeys(("ra", "L", "pr", "aspect"), st.floats(1e-308, 1e308)))
+def test_a_scene_of_any_numbers_is_refused_or_has_finite_ones(**numbers):
+    try:
+        scene = RayleighBenard(**numbers)
+    except ValueError:
+        return
+    derived = np.array([scene.nu, scene.k, scene.g, scene.viscous_time, scene.width])
+    assert (derived > 0).all() and np.isfinite(derived).all()
 
 
 def test_a_class_in_place_of_an_object_is_told():

@@ -1,8 +1,14 @@
 """Committed tables read right with pandas alone; tables.md says what their columns are."""
+import gzip
+import re
+import subprocess
+
 import pandas as pd
 import pytest
+from PIL import Image
 
 from studies.kit.csvfile import EMPTY, content, read
+from studies.kit.key import ROOT
 from studies.kit.store import RESULTS
 from studies.kit.table import SPENT, STAMP
 from studies.report.inventory import NoReport
@@ -21,6 +27,23 @@ def test_a_table_is_complete_for_pandas_alone(path):
     texts = plain.select_dtypes(exclude=["number", "bool"])
     assert not texts.isna().any(axis=None), "an empty text has a word, so that it is no missing number"
     assert path.suffix == ".gz" or len(content(path)) < LONGEST, "large=True packs a table"
+
+
+def test_no_committed_file_names_a_path_of_a_machine():
+    names = subprocess.run(["git", "-C", ROOT, "ls-files", "-z"], capture_output=True, text=True).stdout
+    if not names:
+        pytest.skip("no repository")
+    path = re.compile(rb"(?<![\w.)}>])/(?:home|root|tmp|work|opt|Users|mnt|private|var|srv)/\w")
+    found = {}
+    for name in filter(None, names.split("\0")):
+        raw = (ROOT/name).read_bytes()
+        whole = gzip.decompress(raw) if name.endswith(".gz") else raw
+        if name.endswith(".png"):
+            with Image.open(ROOT/name) as picture:
+                whole += repr(picture.info).encode()        # texts may be packed in the file
+        if match := path.search(whole):
+            found[name] = whole[max(0, match.start() - 40):match.end() + 40]
+    assert not found
 
 
 @pytest.mark.parametrize("folder, table", TABLES, ids=lambda one: getattr(one, "name", one))

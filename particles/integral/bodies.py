@@ -28,6 +28,8 @@ def held(which: np.ndarray, v: tuple[float, float] = (0.0, 0.0), T: float = np.n
          heat: float = 0.0) -> Held:
     """Points of one velocity and temperature. ValueError: there are none, or one twice, or T <= 0."""
     which = np.asarray(which)
+    if which.dtype.kind not in "iu" or (which < 0).any():
+        raise ValueError(f"held points are named by whole numbers from 0 on, got {which}")
     if len(which) < 1 or len(np.unique(which)) < len(which):
         raise ValueError(f"{len(which)} points are to be held, {len(np.unique(which))} of them different: "
                          "name at least one, and each once")

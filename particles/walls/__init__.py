@@ -3,6 +3,8 @@
 A wall is a NamedTuple. It makes ghosts, each the image of a parent (a fluid particle, a fixed one or a ghost
 of an earlier wall), and keeps the particles inside. One kind of wall a file.
 """
+from math import isclose
+
 from continuum.jit import generic, jit
 
 
@@ -39,6 +41,27 @@ def confine(wall, state):
 @generic
 def fixed_points(wall, width, height):
     """(x, y, T), each (F,), of the particles that the wall holds; walls of images give no formula."""
+
+
+def check_ends(walls: tuple, box: tuple[float, float]) -> None:
+    """Refuse walls that are not at ends of a box, two at one end, and a periodic end without its partner.
+
+    An end without any wall is open. ValueError: names the wall.
+    """
+    ends: dict[tuple[int, bool], bool] = {}
+    for wall in walls:
+        plate = getattr(wall, "mirror", wall)
+        at, axis = getattr(plate, "at", getattr(plate, "near", None)), getattr(plate, "axis", 1)
+        if at is None:
+            continue        # a kind of one's own
+        if not isclose(abs(at), box[axis]/2, rel_tol=1e-9) or (axis, at > 0) in ends:
+            raise ValueError(f"{wall} is not at an end of the box {box[0]:g} x {box[1]:g}, or another wall "
+                             "is there already: make the walls for this box, one for each end")
+        ends[axis, at > 0] = hasattr(plate, "by")
+    for (axis, upper), periodic in ends.items():
+        if periodic and not ends.get((axis, not upper)):
+            raise ValueError(f"the box is periodic at one end along axis {axis} only: take both walls of "
+                             "periodic(...)")
 
 
 @jit

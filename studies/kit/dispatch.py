@@ -7,7 +7,7 @@ import os
 import signal
 import sys
 import threading
-from collections import deque
+from collections import Counter, deque
 from collections.abc import Callable, Iterable, Iterator, MutableSequence, Sequence
 from contextlib import closing, suppress
 from multiprocessing import resource_tracker
@@ -30,7 +30,9 @@ LOOK = 0.1      # seconds for which a transport waits for outcomes
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
 SPAWN = multiprocessing.get_context("spawn")
 CHANGED = "the code was changed before this worker loaded it: start the study again"
+TRIES = 3       # workers that a case gets if they die before they begin it
 NO_WORKER = "worker processes end before they run a case: --workers 1 shows why"
+NOT_BEGUN = f"{TRIES} worker processes died before they began it: --workers 1 shows why"
 DIED = "its worker process died, perhaps for want of memory: fewer workers need less (--workers 1)"
 
 
@@ -140,6 +142,7 @@ class Processes:
         self.count, self.folder, self.fractions = count, folder, bar.fractions
         self.workers: dict[Connection, BaseProcess] = {}
         self.busy: dict[Connection, tuple[int, Case]] = {}
+        self.tries: Counter[int] = Counter()
 
     def places(self) -> int:
         return self.count
@@ -148,7 +151,9 @@ class Processes:
         idle = [pipe for pipe in self.workers if pipe not in self.busy]
         pipe = idle[0] if idle else self.start()
         self.busy[pipe] = number, case
-        pipe.send((number, case))
+        self.tries[number] += 1
+        with suppress(OSError):     # of a worker that has died: `ready` will find it
+            pipe.send((number, case))
 
     def start(self) -> Connection:
         """A new worker, with one thread; Ctrl-C is left to this process, which ends it."""
@@ -175,13 +180,16 @@ class Processes:
                 self.workers.pop(pipe).join()
             if pipe in self.busy:
                 number, case = self.busy.pop(pipe)
-                yield number, result or self.died(case)
+                if not (result or self.fractions[number]) and self.tries[number] < TRIES:
+                    self.submit(number, case)
+                else:
+                    yield number, result or self.died(number, case)
 
-    def died(self, case: Case) -> Failure:
+    def died(self, number: int, case: Case) -> Failure:
         """The failure of a case whose worker died. Raises CannotRun: No worker has begun a case."""
         if not any(self.fractions):
             raise CannotRun(NO_WORKER)
-        return Failure(case.label, DIED)
+        return Failure(case.label, DIED if self.fractions[number] else NOT_BEGUN)
 
     def close(self) -> None:
         for worker in self.workers.values():

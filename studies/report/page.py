@@ -20,14 +20,7 @@ from studies.kit.csvfile import read, write_atomic
 from studies.kit.figure import caption
 from studies.kit.table import Table
 from studies.report.equations import filled, short, signed, with_error
-from studies.report.inventory import (
-    Folder,
-    NoReport,
-    Sheet,
-    claims_of,
-    drawings,
-    folders,
-)
+from studies.report.inventory import Folder, NoReport, Sheet, claims_of, drawings, folders
 from studies.report.text import TEXTS, document, examples, opening, target
 
 #: template, style, script, and what to see in each figure
@@ -48,6 +41,7 @@ def write_page(out: Path) -> Path:
 
     Raises NoReport: Something is missing or broken, or too large; an older page stays as it is.
     """
+    check_inside(out)
     text = render(out, folders(out))
     size = len(text.encode())
     if size > LIMIT:
@@ -78,6 +72,14 @@ def render(out: Path, known: list[Folder]) -> str:
         leads=lambda name: target(name, out, out),
         style=(PARTS/"style.css").read_text(),
         script=(PARTS/"script.js").read_text())
+
+
+def check_inside(out: Path) -> None:
+    """Refuse links that lead out of the folder: the page, which is passed on, would hold other files."""
+    for path in out.rglob("*"):
+        shown = path.relative_to(out).parts[0] not in ("raw", "quick", "own")
+        if shown and not path.resolve().is_relative_to(out.resolve()):
+            raise NoReport(f"{path} leads out of {out}: the page holds only what is in there; copy it")
 
 
 def check_studies(claims: pd.DataFrame, known: list[Folder]) -> None:
