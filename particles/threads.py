@@ -14,8 +14,8 @@ class Threads:
     def __init__(self, number: int = 1):
         if not (isinstance(number, Integral) and number >= 1):
             raise ValueError(f"the number of threads must be at least 1, got {number}")
-        self.number = number
-        self._pool = ThreadPoolExecutor(number - 1) if number > 1 else None
+        self.number: int = int(number)
+        self._pool: ThreadPoolExecutor | None = ThreadPoolExecutor(number - 1) if number > 1 else None
 
     def __call__(self, function: Callable, rows: int, *arguments: Any) -> list:
         """Results of function(first, last, *arguments) over all ranges."""

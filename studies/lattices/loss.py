@@ -13,6 +13,8 @@ gas's own. Three steps lead to K, none of which knows a particle that convects:
    between plates. Linear theory with v_x = b dv_x/dn gives Ra_c(b) and the dissipation D(b) of a roll per
    kinetic energy.
 3. K D ~ Nu - 1 ~ 1 - Ra_c/Ra: K = K_grid(Ra/x, x) [1 - Ra_c(b) x/Ra]/[1 - Ra_c(0) x/Ra] D(0)/D(b).
+
+Step 3 was chosen after a look: with K ~ 1 - (Ra_c/Ra)^(1/2) in its place the gain by slip is half as large.
 """
 from collections.abc import Iterator
 from dataclasses import dataclass
