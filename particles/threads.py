@@ -2,8 +2,9 @@
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from itertools import pairwise
-from numbers import Integral
 from typing import Any
+
+import numpy as np
 
 from continuum.jit import overload
 
@@ -12,7 +13,7 @@ class Threads:
     """Calls a compiled function(first, last, ...) on equal ranges of rows, one a thread: bitwise the same."""
 
     def __init__(self, number: int = 1):
-        if not (isinstance(number, Integral) and number >= 1):
+        if not (isinstance(number, (int, np.integer)) and number >= 1):
             raise ValueError(f"the number of threads must be at least 1, got {number}")
         self.number: int = int(number)
         self._pool: ThreadPoolExecutor | None = ThreadPoolExecutor(number - 1) if number > 1 else None
