@@ -4,6 +4,7 @@ Units of KHP95: m = kB = sigma = epsilon = 1. `rho` is mass per area, `e` intern
 temperature. Every relation is plain arithmetic: it takes numbers or arrays, in Python and in compiled code.
 An equation of state or a transport law is a NamedTuple; a new one is a class and its formulas in this file.
 """
+from functools import wraps
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -18,6 +19,7 @@ def _numbers(kind: type) -> type:
     """A law whose numbers are refused where they are infinite, none, negative where that means nothing."""
     plain: Any = kind.__new__
 
+    @wraps(plain)       # compiled code reads the signature
     def checked(cls: type, *args: Any, **named: Any) -> Any:
         law = plain(cls, *args, **named)
         for name, value in zip(law._fields, law):

@@ -72,7 +72,7 @@ class RayleighBenard:
         for T in (self.T_hot, self.T_cold):
             fluid.check_state(self.eos, 1.0, fluid.energy(self.eos, 1.0, T))
         try:
-            positive(g=self.g, nu=self.nu, k=self.k, time=self.viscous_time, width=self.width)
+            positive(nu=self.nu, k=self.k, time=self.viscous_time, width=self.width)
         except (OverflowError, ZeroDivisionError) as error:
             raise ValueError(f"no float holds nu or L^2/nu of L = {self.L:g}, ra = {self.ra:g}: take L = 50, "
                              "which only fixes the units") from error
