@@ -8,9 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from continuum.fluid import conductivity, pressure, temperature, viscosity
+from continuum.fluid import conductivity, diffusivity, pressure, temperature, viscosity
 from particles.integral.carried import hold
-from particles.integral.march import LATER
+from particles.integral.march import LATER, NEW, REAL
 from particles.integral.rings import FLAT
 
 Left = dict[tuple[int, int], int]
@@ -54,19 +54,20 @@ class Plain:
         hold(method.eos, held, y)
         t, i, j, S, k = self.edges(middle)
         flow, (strain, pull) = self.volume_rate(y, i, j, S), self.strain_and_pull(y, middle, t, i, j, S)
-        once, first = self.rest_of_stress(y, t), y[4:].copy()
-        once[4, method.held.which] += method.held.heat
-        for new in (1.0, 1/4, 2/3):
-            if new == 1/4:
-                again = self.rest_of_stress(y, t)
-                again[4, method.held.which] += method.held.heat
-                once = once + LATER*(again - once)
-            rates = self.exchange(y, i, j, S, k) + once
-            rates[3] = flow
-            rates[1] -= method.g*y[6]
-            rates[4] -= method.g*y[5]
-            y[4:] = first + new*(y[4:] - first + dt*rates)
-            hold(method.eos, held, y)
+        parts = int(np.ceil(dt*self.stiffness(y, middle, t, i, j, k)/REAL))
+        for _ in range(parts):
+            once, first = 0.0, y[4:].copy()
+            for s, new in enumerate(NEW):
+                if s < 2:
+                    again = self.rest_of_stress(y, t)
+                    again[4, method.held.which] += method.held.heat
+                    once = once + LATER[s]*(again - once)
+                rates = self.exchange(y, i, j, S, k) + once
+                rates[3] = flow
+                rates[1] -= method.g*y[6]
+                rates[4] -= method.g*y[5]
+                y[4:] = first + new*(y[4:] - first + dt/parts/2*rates)
+                hold(method.eos, held, y)
         y[:2] += dt*y[2:4]
         y[2:4] = np.where(self.free, y[4:6]/y[6] + method.shift*strain*pull, y[2:4])
 
@@ -118,6 +119,14 @@ class Plain:
             spokes = area*(self.apart(x, t[s], t[s - 2]) + self.apart(x, t[s], t[s - 1]))
             np.add.at(pull.T, t[s], spokes.T)
         return float((np.sqrt(sum(q**2 for q in slopes))/V*self.free).max()), pull/(9*V)
+
+    def stiffness(self, y: np.ndarray, x: np.ndarray, t: np.ndarray, i: np.ndarray, j: np.ndarray,
+                  k: np.ndarray) -> float:
+        """The most of chi_i (spread_i + spread_j) over edges, spread_i = sum_j k_ij/V_i."""
+        n, area, (m, V, E), v = y.shape[1], self.doubled(x, *t)/2, y[6:9], y[4:6]/y[6]
+        spread = gathered(n, k, i, k, j)/(gathered(n, area, t[0], area, t[1], area, t[2])/3)
+        chi = diffusivity(self.method.eos, self.method.law, m/V, E/m - (v**2).sum(axis=0)/2)
+        return float((np.maximum(chi[i], chi[j])*(spread[i] + spread[j])).max())
 
     def rest_of_stress(self, y: np.ndarray, t: np.ndarray) -> np.ndarray:
         """What forces along edges lack: eta R(v_j - v_k)/2 on corner i, and its work out of the heat."""

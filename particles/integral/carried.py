@@ -7,13 +7,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.fluid import conductivity, energy, pressure, temperature, viscosity
+from continuum.fluid import conductivity, diffusivity, energy, pressure, temperature, viscosity
 from continuum.jit import formula, jit, jit_records
 from particles.integral.exchange import Listing
 from particles.neighbours import u64
 from particles.pairs import Block, rate, sweep, zero
 from particles.threads import shared
 
+formula(diffusivity)        # compiled code calls it, too
 #: of a state: places, velocity of points, then what edges exchange: momentum, mass, volume, total energy
 ROWS = ("x", "y", "wx", "wy", "px", "py", "m", "V", "E")
 EXCHANGED = slice(4, 9)
@@ -43,13 +44,19 @@ class Fluid(NamedTuple):
 
 
 class Bench(NamedTuple):
-    """Room for a step: fields of points; places, V and pull in its middle; what was, and what edges bring."""
+    """Room for a step: fields of points; what `geometry` gives in its middle; what was, and what edges bring.
+
+    strain, stiffness (n,) : |grad v|, and a bound of the fastest rate at which a point's edges even it out.
+    left (2,) : parts of the step under way that are still to be made, and all of its parts.
+    """
     points: np.ndarray
     middle: np.ndarray
     V: np.ndarray
     pull: np.ndarray
+    spread: np.ndarray
     before: np.ndarray
     strain: np.ndarray
+    stiffness: np.ndarray
     flow: np.ndarray
     once: np.ndarray
     crossed: np.ndarray
@@ -57,6 +64,7 @@ class Bench(NamedTuple):
     stack: np.ndarray
     free: np.ndarray
     flipped: np.ndarray
+    left: np.ndarray
 
 
 zero.of(Crossing)(lambda term: (0.0, 0.0, 0.0, 0.0))
@@ -88,23 +96,32 @@ def read(first, last, y, eos, law, points):
 
 @shared
 @jit
-def follow(first, last, rings, bench):
-    """dV/dt, and |grad v|."""
-    points, edges = bench.points, rings.edges
+def follow(first, last, fluid, rings, bench):
+    """dV/dt, |grad v|, stiffness and what forces along edges lack, where the step starts."""
+    points, edges, spread = bench.points, rings.edges, bench.spread
     for i in range(u64(first), u64(last)):
         a, begin = points[i], edges.first[i]
-        flow, xx, xy, yx, yy = 0.0, 0.0, 0.0, 0.0, 0.0
+        flow, xx, xy, yx, yy, most = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
         for e in range(begin, begin + edges.taken[i]):
             b, sx, sy = points[edges.near[e]], edges.sx[e], edges.sy[e]
             du, dv = b.vx - a.vx, b.vy - a.vy
             flow += sx*(a.rx + a.vx + b.rx + b.vx) + sy*(a.ry + a.vy + b.ry + b.vy)
             xx, xy, yx, yy = xx + sx*du, xy + sy*du, yx + sx*dv, yy + sy*dv
+            most = max(most, spread[edges.near[e]])
         bench.flow[i], bench.strain[i] = flow, np.sqrt(xx*xx + xy*xy + yx*yx + yy*yy)/bench.V[i]
+        bench.stiffness[i] = diffusivity(fluid.eos, fluid.law, a.rho, a.e)*(most + spread[i])
+        complete_row(i, 1.0, rings, points, bench.once)
 
 
 @shared
 @jit
 def complete(first, last, part, rings, bench):
+    for i in range(u64(first), u64(last)):
+        complete_row(i, part, rings, bench.points, bench.once)
+
+
+@formula
+def complete_row(i, part, rings, points, once):
     """What forces along edges lack of a fluid's stress, with its heating; (1 - part) of it as it was before.
 
     What they lack pushes a corner i of a triangle (i, j, k) by eta R(v_j - v_k)/2, R(x, y) = (y, -x), with
@@ -112,23 +129,21 @@ def complete(first, last, part, rings, bench):
     in equal shares: nothing is lost in any triangle, a stream that is the same everywhere makes no
     difference, and a rigid rotation does not heat.
     """
-    points, edges, once = bench.points, rings.edges, bench.once
-    for i in range(u64(first), u64(last)):
-        a, begin, rim = points[i], edges.first[i], u64(rings.rim[i])
-        end = begin + u64(edges.taken[i])
-        c = points[edges.near[begin if rim else end - u64(1)]]
-        u, v, eta = c.vx - a.vx, c.vy - a.vy, a.eta + c.eta
-        px, py, heat = 0.0, 0.0, 0.0
-        for e in range(begin + rim, end):
-            b = points[edges.near[e]]
-            du, dv, mean = b.vx - a.vx, b.vy - a.vy, (eta + b.eta)/3
-            px -= 0.5*mean*(dv - v)
-            py += 0.5*mean*(du - u)
-            heat -= mean*(u*dv - v*du)/3
-            u, v, eta = du, dv, a.eta + b.eta
-        once[i, 0] += part*(px - once[i, 0])
-        once[i, 1] += part*(py - once[i, 1])
-        once[i, 2] += part*(heat + px*a.vx + py*a.vy - once[i, 2])
+    a, edges, begin, rim = points[i], rings.edges, rings.edges.first[i], u64(rings.rim[i])
+    end = begin + u64(edges.taken[i])
+    c = points[edges.near[begin if rim else end - u64(1)]]
+    u, v, eta = c.vx - a.vx, c.vy - a.vy, a.eta + c.eta
+    px, py, heat = 0.0, 0.0, 0.0
+    for e in range(begin + rim, end):
+        b = points[edges.near[e]]
+        du, dv, mean = b.vx - a.vx, b.vy - a.vy, (eta + b.eta)/3
+        px -= 0.5*mean*(dv - v)
+        py += 0.5*mean*(du - u)
+        heat -= mean*(u*dv - v*du)/3
+        u, v, eta = du, dv, a.eta + b.eta
+    once[i, 0] += part*(px - once[i, 0])
+    once[i, 1] += part*(py - once[i, 1])
+    once[i, 2] += part*(heat + px*a.vx + py*a.vy - once[i, 2])
 
 
 @shared
@@ -179,8 +194,7 @@ def receive(fluid, rings, held, y, bench, received):
     """Momentum and energy that held points take, per time, of a state on its own triangulation."""
     (which, v, T, _, given), n, eos = held, y.shape[1], fluid.eos
     read(None, n, y, eos, fluid.law, bench.points)
-    follow(None, n, rings, bench)
-    complete(None, n, 1.0, rings, bench)
+    follow(None, n, fluid, rings, bench)
     sums = np.empty((1, 4))
     for s in range(len(which)):
         i, once = which[s], bench.once[which[s]]

@@ -16,21 +16,23 @@ from particles.integral.bodies import Held
 from particles.integral.carried import EXCHANGED, ROWS, Bench, Crossing, Fluid, Point, hold, receive
 from particles.integral.exchange import Conduction, Friction, Listing
 from particles.integral.fixed import check_number
-from particles.integral.march import FULL, TURNED, march
+from particles.integral.march import FULL, IMAGINARY, NEW, REAL, TURNED, march
 from particles.integral.rings import Rings, geometry, in_order, rows_of, table_of, wider
 from particles.limits import limit_of
 from particles.lists import unphysical
 from particles.method import Leaps, Sums
 from particles.threads import Threads
 
-#: times the speed of sound over the spacing, and the diffusivity over its square, on irregular triangles: a
-#: close pair of points reaches 17, Gershgorin's bound 31; 16 let one in 30 long runs end
-SOUND, SPREAD = 1.6, 24.0
+#: times the speed of sound over the spacing, and the diffusivity over its square, on irregular triangles: at
+#: most 1.57 and 17.5 seen; steps during which an edge may be stiffer are made in parts
+SOUND, SPREAD = 1.6, 18.0
 #: of the shift towards the middle of a point's triangles, over the fastest strain: 1 lets triangles turn over
 #: at Ra 1e7 on 16 rows, from 1.5 on they stay (set after this look)
 SHIFT = 2.0
 #: steps times points between two looks at the clock and the keyboard: a quarter of a second
 AT_ONCE = 1_000_000
+#: room for edges that may have to be flipped after one that was
+EDGES_AT_ONCE = 4096
 #: points from which a step is worth Python's calls, which threads need
 MANY = 20_000
 #: places in memory between neighbours, by the median, from which points are sorted again
@@ -38,15 +40,15 @@ AFAR = 32
 
 
 class Carry(Leaps):
-    """Half a step of places, triangulation and edges there, three stages of exchange, the other half."""
-    evaluations = 3
+    """Half a step of places, triangulation and edges there, the stages of exchange, the other half."""
+    evaluations = len(NEW)
 
     def __init__(self, shape: tuple[int, ...], threads: Threads):
         super().__init__(shape, threads)
         self.most = max(1, AT_ONCE//shape[1])
 
     def step(self, sums: "RingSums", state: np.ndarray, dt: float, steps: int = 1) -> None:
-        """Advance a state in place    [third-order strong-stability-preserving Runge-Kutta]"""
+        """Advance a state in place."""
         sums.march(state, dt, steps)
 
 
@@ -75,9 +77,10 @@ class RingSums(Sums):
         free[self.held.which] = 0.0
         self.bench = Bench(
             points=np.zeros(n, Point), middle=np.zeros((2, n)), V=np.zeros(n), pull=np.zeros((n, 2)),
-            before=np.zeros((5, n)), strain=np.zeros(n), flow=np.zeros(n), once=np.zeros((n, 3)),
-            crossed=np.zeros(n, bool), changed=np.zeros(n, bool), stack=np.zeros((max(n, 64), 2), np.int64),
-            free=free, flipped=np.zeros(1, np.int64))
+            spread=np.zeros(n), before=np.zeros((5, n)), strain=np.zeros(n), stiffness=np.zeros(n),
+            flow=np.zeros(n), once=np.zeros((n, 3)), crossed=np.zeros(n, bool), changed=np.zeros(n, bool),
+            stack=np.zeros((EDGES_AT_ONCE, 2), np.int64), free=free, flipped=np.zeros(1, np.int64),
+            left=np.zeros(2, np.int64))
 
     def go(self, steps: int, dt: float, state: np.ndarray) -> tuple[int, int, int]:
         """`march`; of many points step by step in Python, so that threads can share its loops."""
@@ -136,7 +139,7 @@ class RingSums(Sums):
     def look_at(self, state: np.ndarray) -> None:
         """What held points receive now, on the triangulation where points are."""
         bench = self.bench
-        geometry(0, self.n, state[:2], self.rings, bench.V, bench.pull, bench.crossed)
+        geometry(0, self.n, state[:2], self.rings, bench.V, bench.pull, bench.spread, bench.crossed)
         receive(self.fluid, self.rings, self.held, state, bench, self.received)
 
     def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
@@ -177,7 +180,7 @@ class MovingDelaunay:
         n, which = len(self.x), self.held.which
         V, v, T = np.zeros(n), np.array(v, float), T*np.ones(n)
         rings = rows_of(table_of(self.rings), *self.rings[1:])       # edges that are written take memory
-        geometry(0, n, self.x.T.copy(), rings, V, np.zeros((n, 2)), np.zeros(n, bool))
+        geometry(0, n, self.x.T.copy(), rings, V, np.zeros((n, 2)), np.zeros(n), np.zeros(n, bool))
         w = v.copy()
         v[which], w[which] = self.held.v, self.rides*self.held.v
         m, e = rho*V, energy(self.eos, rho, T)
@@ -199,9 +202,9 @@ class MovingDelaunay:
 
 @limit_of.register
 def _(method: MovingDelaunay, start: np.ndarray) -> float:
-    """Three-stage Runge-Kutta, 1.73 and 2.5 on its axes; a stream that carries all points does not count."""
+    """Of the fastest wave and of diffusion on stiff edges; a stream that carries all does not count."""
     px, py, m, V, E = start[EXCHANGED]
     rho, e = m/V, E/m - (px**2 + py**2)/(2*m**2)
     check_state(method.eos, rho, e)
     a, chi = np.sqrt(V.mean()), np.max(diffusivity(method.eos, method.law, rho, e))
-    return float(1/max(SOUND*np.max(sound_speed(method.eos, rho, e))/a/1.73, SPREAD*chi/a**2/2.5))
+    return float(1/max(SOUND*np.max(sound_speed(method.eos, rho, e))/a/IMAGINARY, SPREAD*chi/a**2/REAL))

@@ -116,8 +116,8 @@ def apart(x, y, size, per, i, j):
 
 
 @jit
-def geometry(first, last, at, rings, V, pull, crossed):
-    """S/2 and k of rows first..last, V, and pull: from each point to the centre of its triangles.
+def geometry(first, last, at, rings, V, pull, spread, crossed):
+    """S/2 and k of rows first..last, V, spread: sum_j k_ij/V_i, pull: from points to their triangles' centre.
 
     crossed[i] : an edge to a point j > i is to be flipped. A triangle that has turned over gives V = nan.
     """
@@ -131,13 +131,14 @@ def geometry(first, last, at, rings, V, pull, crossed):
         cot = 0.0 if rim else (lx*(lx - jx) + ly*(ly - jy))/low
         if rim:
             lx, ly, low = 0.5*jx, 0.5*jy, 0.0
-        total, px, py, least, crossed[i] = 0.0, 0.0, 0.0, 1.0, False
+        total, px, py, ks, least, crossed[i] = 0.0, 0.0, 0.0, 0.0, 1.0, False
         for e in range(begin, begin + count):
             following = e + u64(1) if e < end else begin
             kx, ky = apart(x, y, size, per, i, near[following])
             if rim and e == end:
                 rings.edges.sx[e], rings.edges.sy[e] = (0.5*jy - ly)/6, (lx - 0.5*jx)/6
                 rings.edges.k[e] = 0.5*cot
+                ks += rings.edges.k[e]
                 break
             area = jx*ky - jy*kx
             k = (kx*(kx - jx) + ky*(ky - jy))/area
@@ -145,11 +146,12 @@ def geometry(first, last, at, rings, V, pull, crossed):
             rings.edges.k[e] = 0.5*(cot + k)
             if rings.edges.k[e] < FLAT and near[e] > i and not (rim and e == begin):
                 crossed[i] = True
+            ks += rings.edges.k[e]
             total += area
             px += area*(jx + kx)
             py += area*(jy + ky)
             least = min(least, area)
             cot = (jx*(jx - kx) + jy*(jy - ky))/area
             lx, ly, jx, jy = jx, jy, kx, ky
-        V[i] = total/6 if least > 0 else np.nan
+        V[i], spread[i] = total/6 if least > 0 else np.nan, 6*ks/total
         pull[i, 0], pull[i, 1] = px/(3*total), py/(3*total)

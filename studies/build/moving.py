@@ -155,7 +155,7 @@ class Carriage(NamedTuple):
     name: str
     shift: float = SHIFT
     size: float = START_JITTER
-    of_limit: float = 0.8
+    of_limit: float = 0.9
 
     def refuses(self, scene: Any) -> str:
         """Which part of a scene this cannot take; empty for none."""
@@ -181,8 +181,8 @@ class Carriage(NamedTuple):
 
 CARRIAGES = {one.name: one for one in (
     Carriage("moving-delaunay"),
-    Carriage("moving-delaunay-half-step", of_limit=0.4),
-    Carriage("moving-delaunay-quarter-step", of_limit=0.2),
+    Carriage("moving-delaunay-half-step", of_limit=0.45),
+    Carriage("moving-delaunay-quarter-step", of_limit=0.225),
 )}
 
 
