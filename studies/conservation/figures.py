@@ -6,7 +6,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from studies.kit.figure import Drawing, Drawings, errorbar, figure, look, written
+from studies.kit.figure import Drawing, Drawings, errorbar, figure, look, numbered
 
 #: RR98's motions, by their names, with their equations
 MOTIONS = {"literal": "moving-literal (39-41)", "convective": "moving-convective (46-48)",
@@ -92,7 +92,7 @@ def drags(drag: pd.DataFrame) -> Figure:
                        label=f"$(a/R)^{power}$")
         panel.set(xscale="log", yscale="log", title=f"solid fraction {fraction:g}", xlabel="radius $R/a$")
         ticks(panel, (4, 6, 10, 20))
-        written(panel.yaxis, (1, 3))
+        numbered(panel.yaxis, (1, 3))
     axes[0, 0].set_ylabel("|error| of the drag  [%]")
     page.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
     page.suptitle("Points on its surface give a cylinder's drag, frozen lattice points err without order\n"

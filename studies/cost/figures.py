@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from studies.cost.derive import LEVELS
 from studies.cost.tables import METHODS
-from studies.kit.figure import FILLS, LINES, Drawing, Drawings, figure, written
+from studies.kit.figure import FILLS, LINES, Drawing, Drawings, figure, numbered
 
 #: scene, quantity, title of each panel
 PANELS = (
@@ -111,8 +111,7 @@ def loglog(axes: Axes, title: str, xlabel: str) -> None:
     """Logarithmic axes whose numbers are written out."""
     axes.set(xscale="log", yscale="log", title=title, xlabel=xlabel)
     for axis in (axes.xaxis, axes.yaxis):
-        low, high = axis.get_view_interval()
-        written(axis, (1,) if high > 100*low else (1, 2, 5))
+        numbered(axis)
 
 
 def legend(page: Figure, all_axes: np.ndarray) -> None:

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.tri import LinearTriInterpolator, Triangulation
 
 from studies.build.answers import answer
-from studies.kit.figure import errorbar, figure, look, save
+from studies.kit.figure import errorbar, figure, look, numbered, save
 
 ARROWS = 11         # over the height
 LONG = 3.0          # times as long as wide, or half as wide as high: fields along a line say more than maps
@@ -105,4 +105,6 @@ def against_cost(axes: Axes, table: pd.DataFrame, name: str) -> None:
     for rows, *place in table[["rows", "cpu_s", name]].itertuples(index=False):
         axes.annotate(f"{rows}", (place[0], place[1]), textcoords="offset points", xytext=(4, 4), fontsize=7)
     axes.set(xscale="log", xlabel="CPU  [s]", ylabel=name, yscale="log" if name == "error" else "linear")
+    for axis in (axes.xaxis, axes.yaxis)[:1 + (name == "error")]:
+        numbered(axis)
     axes.legend(fontsize=7)

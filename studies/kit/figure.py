@@ -80,11 +80,13 @@ def logarithmic(axes: Axes, ticks: Sequence[float]) -> None:
     axes.minorticks_off()
     low, high = axes.get_ylim()
     if high < 100*low:
-        written(axes.yaxis, (1, 2, 5))
+        numbered(axes.yaxis)
 
 
-def written(axis: Any, steps: tuple[float, ...]) -> None:
-    """Numbers at these steps of each power of ten, no others, written out."""
+def numbered(axis: Any, steps: tuple[float, ...] = ()) -> None:
+    """Numbers at these steps of each power of ten, or as many as have room, no others, written out."""
+    low, high = axis.get_view_interval()
+    steps = steps or ((1,) if high > 100*low else (1, 2, 5))
     axis.set_major_locator(LogLocator(subs=steps))
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axis.set_minor_formatter(NullFormatter())

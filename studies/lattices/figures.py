@@ -4,7 +4,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from studies.build.words import name_of
-from studies.kit.figure import Drawing, Drawings, errorbar, figure, look, plain_ticks, written
+from studies.kit.figure import Drawing, Drawings, errorbar, figure, look, numbered, plain_ticks
 from studies.kit.table import groups
 from studies.lattices.loss import fitted, projected
 
@@ -80,7 +80,7 @@ def stress(driven: pd.DataFrame, laws: pd.DataFrame, foretold: pd.DataFrame) -> 
         spread = (flow.max() - flow.min())/2
         errorbar(middle, list(spread.index), flow.mean(), spread, number=number, label=label,
                  linestyle=look(number)["linestyle"])
-    written(left.yaxis, (1, 2, 5))
+    numbered(left.yaxis)
     middle.axhline(1, color="grey", linewidth=0.6)
     middle.set(xscale="log", xlabel="rows", ylabel="amplitude of vortices / exact")
     plain_ticks(middle, [25, 50, 100, 200])

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from studies.build.words import name_of
 from studies.kit import fits
-from studies.kit.figure import LINES, below, figure, look, plain_ticks, written
+from studies.kit.figure import LINES, below, figure, look, numbered, plain_ticks
 from studies.kit.table import Tables
 from studies.rb import looks
 from studies.rb.looks import ENERGIES, KIND, LAYER, MARKS, OPEN, RA_SHOWN
@@ -170,6 +170,6 @@ def finish(axes: Axes, title: str, line: pd.DataFrame) -> None:
     size = line["error"].abs()
     axes.set(xscale="log", yscale="log", title=title, xlabel=ROWS, ylim=(0.4*size.min(), 2*size.max()))
     for axis in (axes.xaxis, axes.yaxis):
-        written(axis, (1, 2, 5))
+        numbered(axis, (1, 2, 5))
     plain_ticks(axes, sorted({*line["resolution"]}))
     axes.tick_params(labelbottom=True)
