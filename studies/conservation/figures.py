@@ -6,7 +6,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from studies.kit.figure import Drawing, Drawings, errorbar, figure, look, numbered
+from studies.kit.figure import Drawing, Drawings, errorbar, figure, logarithmic, look, numbered, plain_ticks
 
 #: RR98's motions, by their names, with their equations
 MOTIONS = {"literal": "moving-literal (39-41)", "convective": "moving-convective (46-48)",
@@ -25,12 +25,6 @@ def bars(axes: Axes, rows: pd.DataFrame, x: str, y: str, **more: Any) -> None:
     """A column with its errors over another."""
     if len(rows):
         errorbar(axes, rows[x], rows[y], rows[f"{y}_err"], **more)
-
-
-def ticks(axes: Axes, values: Any) -> None:
-    """Marks of a logarithmic axis at these numbers only."""
-    axes.set_xticks(list(values), labels=[f"{value:g}" for value in values])
-    axes.minorticks_off()
 
 
 def speeds(patterns: pd.DataFrame, sound: pd.DataFrame) -> Figure:
@@ -56,7 +50,7 @@ def draw_speeds(axes: Axes, rows: pd.DataFrame) -> None:
         bars(axes, group, "wavelength", "speed", number=number, label=words, **style)
         axes.plot(group["wavelength"], group["predicted"], color="grey", linestyle=":", marker="")
     axes.set(xlabel=r"wavelength $\lambda/a$", xscale="log")
-    ticks(axes, sorted(set(rows["wavelength"])))
+    plain_ticks(axes, sorted(set(rows["wavelength"])))
 
 
 def steps(rows: pd.DataFrame) -> Figure:
@@ -70,8 +64,8 @@ def steps(rows: pd.DataFrame) -> Figure:
                 group = some[some["integrator"] == integrator]
                 bars(axes, group, "dt", "error", number=number, label=f"{words}, {more['label']}",
                      linestyle=look(number)["linestyle"], markerfacecolor=more["face"])
-        axes.set(xlabel=rf"step $\Delta t$  [{UNIT}]", xscale="log", yscale="log", title=flow)
-        ticks(axes, (0.03, 0.1, 0.3))
+        axes.set(xlabel=rf"step $\Delta t$  [{UNIT}]", title=flow)
+        logarithmic(axes, (0.03, 0.1, 0.3))
     panels[0, 0].set_ylabel("rms error of places over displacement")
     page.legend(*panels[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=1)
     page.suptitle("Steps with new velocities leave points nearer to where they belong\n"
@@ -90,8 +84,8 @@ def drags(drag: pd.DataFrame) -> Figure:
             radius = np.array([drag["radius"].min(), drag["radius"].max()])
             panel.plot(radius, at*radius**-power, color="grey", linestyle=style, marker="",
                        label=f"$(a/R)^{power}$")
-        panel.set(xscale="log", yscale="log", title=f"solid fraction {fraction:g}", xlabel="radius $R/a$")
-        ticks(panel, (4, 6, 10, 20))
+        panel.set(title=f"solid fraction {fraction:g}", xlabel="radius $R/a$")
+        logarithmic(panel, (4, 6, 10, 20))
         numbered(panel.yaxis, (1, 3))
     axes[0, 0].set_ylabel("|error| of the drag  [%]")
     page.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=3)

@@ -46,6 +46,7 @@ def pictures(comparison: Any, path: str | Path | None = None) -> Figure:
 def written(page: Figure, path: str | Path | None) -> Figure:
     """The figure, as PNG too if a path is given."""
     if path is not None:
+        page.draw_without_rendering()       # ticks may change with the layout, which then has to follow
         save(page, Path(path))
     return page
 
@@ -105,6 +106,5 @@ def against_cost(axes: Axes, table: pd.DataFrame, name: str) -> None:
     for rows, *place in table[["rows", "cpu_s", name]].itertuples(index=False):
         axes.annotate(f"{rows}", (place[0], place[1]), textcoords="offset points", xytext=(4, 4), fontsize=7)
     axes.set(xscale="log", xlabel="CPU  [s]", ylabel=name, yscale="log" if name == "error" else "linear")
-    for axis in (axes.xaxis, axes.yaxis)[:1 + (name == "error")]:
-        numbered(axis)
+    numbered(axes.xaxis)
     axes.legend(fontsize=7)

@@ -10,7 +10,7 @@ import pandas as pd
 from cycler import cycler
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
 from matplotlib.transforms import ScaledTranslation
 from PIL import Image
 
@@ -87,7 +87,7 @@ def numbered(axis: Any, steps: tuple[float, ...] = ()) -> None:
     """Numbers at these steps of each power of ten, or as many as have room, no others, written out."""
     low, high = axis.get_view_interval()
     steps = steps or ((1,) if high > 100*low else (1, 2, 5))
-    axis.set_major_locator(LogLocator(subs=steps))
+    axis.set_major_locator(LogLocator(subs=steps) if high > 5*low else MaxNLocator(5))
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axis.set_minor_formatter(NullFormatter())
 

@@ -58,7 +58,7 @@ def steps(rows: pd.DataFrame) -> Figure:
     for axes, (fluid, some) in zip(panels, fluids, strict=True):
         for name, group in some.groupby("integrator"):
             axes.plot(group["dt"], group["error"], **look(integrators.index(name)), label=name)
-        axes.set(xscale="log", yscale="log", xlabel=r"$c^2\Delta t/\nu$", title=FLUIDS[fluid])
+        axes.set(xscale="log", yscale="log", xlabel=r"$c^2\Delta t/\nu$", title=FLUIDS[str(fluid)])
         below(axes)
     panels[0].set_ylabel("largest error of a variance")
     page.suptitle("Crank-Nicolson keeps variances to round-off, three stages nearly, Euler does not")
