@@ -24,5 +24,5 @@ for _ in range(sized(4000, 200)):       # momenta by an implicit middle would be
 page, axes = figure(width=5.5)
 axes.plot(dt*np.arange(len(seen)), seen, marker="")
 axes.axhline(1, color="black")
-axes.set(xlabel="time", ylabel="kT of velocities / kT", title="Friction and its noise agree on a temperature")
+axes.set(xlabel="time", ylabel="kT of velocities / kT", title="Velocities warm towards that of their noise")
 save(page, picture("noise"))

@@ -7,6 +7,7 @@ from importlib import import_module
 import numpy as np
 import pytest
 from matplotlib.container import ErrorbarContainer
+from matplotlib.lines import Line2D
 from matplotlib.text import Text
 
 from studies.hardcases import figures as hardcases_figures
@@ -19,6 +20,8 @@ from studies.rb.looks import NOT_STEADY
 
 #: name -> tables -> figure
 ALL = {drawing.name: drawing.page for drawing in figures.drawings}
+STUDIES = ("conservation", "cost", "hardcases", "lattices", "noise", "onset", "operators", "ordering", "rb",
+           "streams")
 
 
 @pytest.fixture(scope="module")
@@ -114,12 +117,17 @@ def test_points_that_have_not_settled_are_crossed_and_the_legend_says_so(full):
 
 
 def looks(axes) -> dict[str, tuple]:
-    """What tells the series of a panel apart without colour: marker and how it is filled."""
+    """What tells the series of a panel apart without colour: marker and how it is filled, or the line."""
     handles, names = axes.get_legend_handles_labels()
     lines = [handle[0] if isinstance(handle, ErrorbarContainer) else handle for handle in handles]
-    faces = [line.get_markerfacecolor() in ("white", "none") for line in lines]
-    return {name: (line.get_marker(), line.get_fillstyle(), face)
-            for name, line, face in zip(names, lines, faces) if name != NOT_STEADY}
+    return {name: look_of(line) for name, line in zip(names, lines)
+            if name != NOT_STEADY and isinstance(line, Line2D)}
+
+
+def look_of(line: Line2D) -> tuple:
+    if line.get_marker() in ("", "None"):
+        return str(line._dash_pattern), line.get_linewidth()
+    return line.get_marker(), line.get_fillstyle(), line.get_markerfacecolor() in ("white", "none")
 
 
 @pytest.mark.parametrize(("study", "name"), [
@@ -131,6 +139,16 @@ def test_a_panel_has_seven_series_at_most_and_none_looks_like_another(study, nam
     assert max(map(len, panels)) > 1 and page.get_figwidth() <= 7.5      # inches: 640 pixels keep it readable
     for panel in panels:
         assert len(set(panel.values())) == len(panel) <= 7
+
+
+@pytest.mark.parametrize("study", STUDIES)
+def test_every_figure_has_a_title_and_series_that_differ_in_grey(study):
+    for name, page in pages_of(study).items():
+        assert page.get_suptitle() or page.axes[0].get_title(), f"{study}/{name} has no title"
+        for axes in page.axes:
+            panel = looks(axes)
+            # seven, and a line to compare them with
+            assert len(set(panel.values())) == len(panel) <= 8, f"{study}/{name}: {panel}"
 
 
 def test_colours_of_the_map_are_its_outcomes():

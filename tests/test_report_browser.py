@@ -103,12 +103,15 @@ CUT = """return [...document.querySelectorAll(arguments[0])].filter(one =>
     one.getBoundingClientRect().right > innerWidth + 1 && !one.closest('.scroll, .strip, .cards')).length"""
 
 
-@pytest.mark.parametrize("size", [(360, 740), (390, 844), (768, 1024), (1366, 768), (1920, 1080)])
+@pytest.mark.parametrize("size", [(360, 740), (390, 844), (768, 1024), (1024, 768), (1366, 768),
+                                  (1920, 1080)])
 def test_the_page_is_short_while_folded_and_no_table_is_cut(sized, size):
     chrome = sized(*size)
     length, width = chrome.execute_script(
         "const all = document.documentElement; return [all.scrollHeight, all.scrollWidth]")
     assert length <= SCREENS*size[1] and width <= size[0]
+    whole = "const one = document.querySelector('.choice .scroll'); return one.scrollWidth <= one.clientWidth"
+    assert chrome.execute_script(whole), "the choice needs no scrolling"
     folds = chrome.execute_script("""const folds = [...document.querySelectorAll('details:not([open])')];
         folds.forEach(fold => { fold.open = true; }); window.opened = folds; return folds.length""")
     assert folds > 600

@@ -6,7 +6,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from studies.kit.figure import Drawing, Drawings, below, errorbar, figure, look
+from studies.kit.figure import Drawing, Drawings, errorbar, figure, logarithmic, look, numbered, plain_ticks
 
 #: RR98's motions, by their names, with their equations
 MOTIONS = {"literal": "moving-literal (39-41)", "convective": "moving-convective (46-48)",
@@ -16,7 +16,7 @@ STEPPED = {motion: MOTIONS[motion] for motion in ("literal", "constant-mass")}
 INTEGRATORS: dict[str, Any] = {
     "euler": {"label": "old velocities [Eq. 40]", "face": "white"},
     "two-step": {"label": "new velocities [Eq. 41]", "face": None}}
-BODIES = {"surface": "points on the surface", "surface-unfiltered": "the same without filter",
+BODIES = {"surface": "points on the surface", "surface-unfiltered": "on the surface, without filter",
           "frozen": "frozen lattice points", "frozen-grown": "frozen, half a spacing more"}
 UNIT = r"$a\,(m/k_BT)^{1/2}$"      # of time
 
@@ -25,12 +25,6 @@ def bars(axes: Axes, rows: pd.DataFrame, x: str, y: str, **more: Any) -> None:
     """A column with its errors over another."""
     if len(rows):
         errorbar(axes, rows[x], rows[y], rows[f"{y}_err"], **more)
-
-
-def ticks(axes: Axes, values: Any) -> None:
-    """Marks of a logarithmic axis at these numbers only."""
-    axes.set_xticks(list(values), labels=[f"{value:g}" for value in values])
-    axes.minorticks_off()
 
 
 def speeds(patterns: pd.DataFrame, sound: pd.DataFrame) -> Figure:
@@ -42,8 +36,9 @@ def speeds(patterns: pd.DataFrame, sound: pd.DataFrame) -> Figure:
     right.set(ylabel="speed of sound over $c$", title="standing sound")
     right.axhline(np.sqrt(2), color="grey", linewidth=0.6)
     right.annotate(r"$\sqrt{2}$", (8, np.sqrt(2)), textcoords="offset points", xytext=(0, -14))
-    page.suptitle("Which motion of the points carries patterns and sound at the right speed?\n"
-                  "Lucy's weight, $h = 3a$; dotted: predicted from sums over the lattice", fontsize=10)
+    page.legend(*right.get_legend_handles_labels(), loc="outside lower center", ncols=4)
+    page.suptitle("Of RR98's motions two carry patterns and sound near the right speed\n"
+                  "Lucy's weight, $h = 3a$; dotted: predicted from sums over the lattice")
     return page
 
 
@@ -55,8 +50,7 @@ def draw_speeds(axes: Axes, rows: pd.DataFrame) -> None:
         bars(axes, group, "wavelength", "speed", number=number, label=words, **style)
         axes.plot(group["wavelength"], group["predicted"], color="grey", linestyle=":", marker="")
     axes.set(xlabel=r"wavelength $\lambda/a$", xscale="log")
-    ticks(axes, sorted(set(rows["wavelength"])))
-    below(axes, ncols=2)
+    plain_ticks(axes, sorted(set(rows["wavelength"])))
 
 
 def steps(rows: pd.DataFrame) -> Figure:
@@ -70,12 +64,12 @@ def steps(rows: pd.DataFrame) -> Figure:
                 group = some[some["integrator"] == integrator]
                 bars(axes, group, "dt", "error", number=number, label=f"{words}, {more['label']}",
                      linestyle=look(number)["linestyle"], markerfacecolor=more["face"])
-        axes.set(xlabel=rf"step $\Delta t$  [{UNIT}]", xscale="log", yscale="log", title=flow)
-        ticks(axes, (0.03, 0.1, 0.3))
+        axes.set(xlabel=rf"step $\Delta t$  [{UNIT}]", title=flow)
+        logarithmic(axes, (0.03, 0.1, 0.3))
     panels[0, 0].set_ylabel("rms error of places over displacement")
     page.legend(*panels[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=1)
     page.suptitle("Steps with new velocities leave points nearer to where they belong\n"
-                  "bars: what finer steps differ by", fontsize=10)
+                  "bars: what finer steps differ by")
     return page
 
 
@@ -90,12 +84,13 @@ def drags(drag: pd.DataFrame) -> Figure:
             radius = np.array([drag["radius"].min(), drag["radius"].max()])
             panel.plot(radius, at*radius**-power, color="grey", linestyle=style, marker="",
                        label=f"$(a/R)^{power}$")
-        panel.set(xscale="log", yscale="log", title=f"solid fraction {fraction:g}", xlabel="radius $R/a$")
-        ticks(panel, (4, 6, 10, 20))
-        below(panel, ncols=2, bbox_to_anchor=(0.5, -0.16))
-    axes[0, 0].set_ylabel("|error| of the drag, %")
-    page.suptitle("Drag of a cylinder against Sangani & Acrivos (1982); bars: print and what was not steady",
-                  fontsize=10)
+        panel.set(title=f"solid fraction {fraction:g}", xlabel="radius $R/a$")
+        logarithmic(panel, (4, 6, 10, 20))
+        numbered(panel.yaxis, (1, 3))
+    axes[0, 0].set_ylabel("|error| of the drag  [%]")
+    page.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
+    page.suptitle("Points on its surface give a cylinder's drag, frozen lattice points err without order\n"
+                  "against Sangani & Acrivos (1982); bars: print and what was not steady")
     return page
 
 
@@ -103,7 +98,8 @@ def draw_drags(axes: Axes, rows: pd.DataFrame) -> None:
     """Of each variant over the radius."""
     for number, (name, words) in enumerate(BODIES.items()):
         group = rows[rows["variant"] == name]
-        bars(axes, group, "radius", "percent", number=number, linestyle="-", label=words)
+        bars(axes, group, "radius", "percent", number=number, label=words,
+             linestyle=look(number)["linestyle"])
 
 
 FIGURES = Drawings(

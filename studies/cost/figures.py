@@ -5,11 +5,10 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from studies.cost.derive import LEVELS
 from studies.cost.tables import METHODS
-from studies.kit.figure import LINES, Drawing, Drawings, figure
+from studies.kit.figure import FILLS, LINES, Drawing, Drawings, figure, numbered
 
 #: scene, quantity, title of each panel
 PANELS = (
@@ -31,13 +30,6 @@ FAMILIES = {
     "spam": ("#D55E00", "s"),
     "moving": ("#009E73", "D"),
 }
-#: how the markers of a family's members are filled
-FILLS: tuple[dict[str, str], ...] = (
-    {},
-    {"markerfacecolor": "white"},
-    {"fillstyle": "left", "markerfacecoloralt": "white"},
-    {"fillstyle": "bottom", "markerfacecoloralt": "white"},
-)
 
 
 def work_precision(points: pd.DataFrame, needed: pd.DataFrame) -> Figure:
@@ -52,8 +44,8 @@ def work_precision(points: pd.DataFrame, needed: pd.DataFrame) -> Figure:
     for axes in all_axes[:, 0]:
         axes.set_ylabel("relative error")
     legend(page, all_axes)
-    page.suptitle("What does an error cost? Grids are cheapest, points that stay next;\n"
-                  "the best of each family, at its own best step, one thread; bars: 95 %", fontsize=10)
+    page.suptitle("An error of 1 % is cheapest on grids, then on points; smooth particles never come to it\n"
+                  "the best of each family, at its own best step, one thread; bars: 95 %")
     return page
 
 
@@ -119,15 +111,7 @@ def loglog(axes: Axes, title: str, xlabel: str) -> None:
     """Logarithmic axes whose numbers are written out."""
     axes.set(xscale="log", yscale="log", title=title, xlabel=xlabel)
     for axis in (axes.xaxis, axes.yaxis):
-        low, high = axis.get_view_interval()
-        written(axis, (1,) if high > 100*low else (1, 2, 5))
-
-
-def written(axis: Any, steps: tuple[float, ...]) -> None:
-    """Numbers at these steps of each power of ten, no others."""
-    axis.set_major_locator(LogLocator(subs=steps))
-    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-    axis.set_minor_formatter(NullFormatter())
+        numbered(axis)
 
 
 def legend(page: Figure, all_axes: np.ndarray) -> None:

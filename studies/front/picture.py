@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.tri import LinearTriInterpolator, Triangulation
 
 from studies.build.answers import answer
-from studies.kit.figure import errorbar, figure, look, save
+from studies.kit.figure import errorbar, figure, look, numbered, save
 
 ARROWS = 11         # over the height
 LONG = 3.0          # times as long as wide, or half as wide as high: fields along a line say more than maps
@@ -46,6 +46,7 @@ def pictures(comparison: Any, path: str | Path | None = None) -> Figure:
 def written(page: Figure, path: str | Path | None) -> Figure:
     """The figure, as PNG too if a path is given."""
     if path is not None:
+        page.draw_without_rendering()       # ticks may change with the layout, which then has to follow
         save(page, Path(path))
     return page
 
@@ -105,4 +106,5 @@ def against_cost(axes: Axes, table: pd.DataFrame, name: str) -> None:
     for rows, *place in table[["rows", "cpu_s", name]].itertuples(index=False):
         axes.annotate(f"{rows}", (place[0], place[1]), textcoords="offset points", xytext=(4, 4), fontsize=7)
     axes.set(xscale="log", xlabel="CPU  [s]", ylabel=name, yscale="log" if name == "error" else "linear")
+    numbered(axes.xaxis)
     axes.legend(fontsize=7)

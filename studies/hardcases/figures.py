@@ -14,11 +14,11 @@ from studies.hardcases.high_ra import OFF
 from studies.hardcases.printed import impulse
 from studies.hardcases.survival import PROBES
 from studies.hardcases.tubes import ETAS, STEPS, exact
-from studies.kit.figure import Drawing, Drawings, figure, look
+from studies.kit.figure import LINES, Drawing, Drawings, figure, look
 from studies.kit.table import groups
 
 THIN_LINE: dict[str, Any] = {"color": "black", "linewidth": 0.7, "linestyle": "-", "marker": ""}
-DASHED: dict[str, Any] = {"color": "black", "linestyle": "--", "marker": ""}
+DASHED: dict[str, Any] = {"color": "black", "linestyle": LINES[-1], "marker": ""}
 
 
 def dots(number: int, size: float = 2) -> dict[str, Any]:
@@ -68,7 +68,7 @@ def chart(rows: pd.DataFrame) -> Figure:
     axes.set_yticks(np.arange(len(methods)) + 0.5, labels=methods, fontsize=8)
     axes.set_xticks(np.arange(len(cases)) + 0.5, labels=cases, fontsize=8, rotation=40, ha="right")
     axes.grid(False)
-    page.suptitle(f"No method takes every hard case; layers have {ROWS} rows", fontsize=10)
+    page.suptitle(f"No method takes every hard case; layers have {ROWS} rows")
     page.supxlabel(fill(KEY, 112), fontsize=8, x=0.01, ha="left")
     return page
 
@@ -99,8 +99,8 @@ def shocks(ripples: pd.DataFrame) -> Figure:
     for axes, place in ((left, "upper right"), (right, "upper left")):
         axes.set_xlabel("time / time of the shock's arrival")
         axes.legend(loc=place)
-    page.suptitle("A shock of Mach 1.5 passes an interface of density ratio 4: smooth particles as printed,\n"
-                  "without artificial viscosity; bands: all seeds", fontsize=10)
+    page.suptitle("Behind a shock of Mach 1.5 ripples of an interface (density ratio 4) grow too slowly:\n"
+                  "smooth particles as printed, without artificial viscosity; bands: all seeds")
     return page
 
 
@@ -113,7 +113,7 @@ def band(axes: Any, values: pd.Series, time: pd.Series, number: int, label: str)
 
 
 ALL = (*IN_TUBES, "spam")
-SHIFT = 0.5             # between methods' densities, upwards
+SHIFT = 0.6             # between methods' densities, upwards
 
 
 def shock_methods(rows: pd.DataFrame, profiles: pd.DataFrame) -> Figure:
@@ -121,15 +121,15 @@ def shock_methods(rows: pd.DataFrame, profiles: pd.DataFrame) -> Figure:
 
     Of the shorter step: what ends with it is not the step's fault.
     """
-    page, all_axes = figure(1, len(ETAS), width=4.0, height=4.4)
+    page, all_axes = figure(1, len(ETAS), width=4.0, height=4.9)
     for axes, eta in zip(all_axes, ETAS):
         here = f"step != {max(STEPS)} and abs(eta - {eta}) < 1e-8 and seed == 1"
         densities(axes, profiles.query(here), rows.query(here).sort_values("L"))
         axes.set(title=rf"$\eta = k = {eta:g}$", xlabel="distance from the diaphragm / $L$",
                  xlim=(-0.8, 1.0), ylim=(-0.1, SHIFT*(len(ALL) - 1) + 1.15), yticks=[])
     all_axes[0].set_ylabel("density, methods one above the other")
-    page.suptitle("Sod's shock tube at $t = 0.4 L$ without artificial viscosity; thin: exact, frictionless",
-                  fontsize=10)
+    page.suptitle("Without friction methods ring or end behind a shock; with enough of it all have it\n"
+                  "Sod's tube at $t = 0.4 L$, no artificial viscosity; thin: exact, frictionless")
     return page
 
 
@@ -143,7 +143,7 @@ def densities(axes: Any, profiles: pd.DataFrame, rows: pd.DataFrame) -> None:
             rho, _, _ = exact(L, (profile.x.to_numpy() + 1)*L)
             axes.plot(profile.x, up + rho, **THIN_LINE)
             axes.plot(profile.x, up + profile.rho, **dots(number))
-            axes.text(0.98, up + 0.02, f"{method}, $L$ = {L:g}", ha="right", fontsize=8)
+            axes.text(0.98, up + 0.09, f"{method}, $L$ = {L:g}", ha="right", va="top", fontsize=8)
         elif len(reached):
             words = f"{method}:\nended at {reached.iloc[-1]:.2g} of the time"
             axes.text(0.98, up + 0.2, words, ha="right", fontsize=8)
@@ -165,13 +165,12 @@ def highest(rows: pd.DataFrame, summary: pd.DataFrame) -> Figure:
         above.axhline(level, color="grey", linewidth=0.8)
     above.set(xscale="log", ylabel="K / K of 48 rows of the grid",
               title=f"lines: medians of {BINS:g} bins a decade; grey: a factor of {OFF:g}")
-    above.legend(loc="upper left")
+    above.legend(loc="center right")
     under.set(xlabel="Ra", ylim=(len(IN_LAYERS) - 0.4, -0.6),
               title="bars: open: first wrong, all starts; filled: first that ends, all starts\n"
                     "ticks: runs that came to their end; crosses: runs that did not")
     under.set_yticks(range(len(IN_LAYERS)), labels=list(IN_LAYERS), fontsize=8)
-    page.suptitle(f"On {ROWS} rows grid and points that stay end near Ra 5e5; moving points go on, but wrong",
-                  fontsize=10)
+    page.suptitle(f"On {ROWS} rows grid and points that stay end near Ra 5e5; moving points go on, but wrong")
     return page
 
 

@@ -10,6 +10,8 @@ import pandas as pd
 from cycler import cycler
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
+from matplotlib.transforms import ScaledTranslation
 from PIL import Image
 
 from studies.kit.csvfile import write_atomic
@@ -21,15 +23,19 @@ Numbers = Sequence[float] | np.ndarray | pd.Series
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#882255")
 MARKERS = ("o", "s", "^", "D", "v", "P", "X", "*")
 LINES = ("-", "--", "-.", ":", (0, (5, 1)), (0, (3, 1, 1, 1)), (0, (1, 1)), (0, (8, 3)))
+#: how markers of the same kind are filled
+FILLS: tuple[dict[str, str], ...] = ({}, {"markerfacecolor": "white"}, *(
+    {"fillstyle": half, "markerfacecoloralt": "white"} for half in ("left", "bottom")))
 
 DIGIT = 6.4     # points that a digit of a tick takes
 GROWS = 1.15    # axes, at least, when the page is laid out
+BELOW = -0.42   # from axes to a legend below their label  [inches]
 
 matplotlib.rcParams.update({
     "axes.prop_cycle": cycler(color=COLOURS) + cycler(marker=MARKERS) + cycler(linestyle=LINES),
     "axes.grid": True, "axes.titlesize": 10, "grid.alpha": 0.3, "font.size": 10, "legend.fontsize": 8,
     "legend.frameon": False, "lines.markersize": 5, "lines.linewidth": 1.2, "errorbar.capsize": 2.5,
-    "savefig.dpi": 150, "figure.dpi": 100, "image.cmap": "viridis",
+    "savefig.dpi": 150, "figure.dpi": 100, "figure.titlesize": 10, "image.cmap": "viridis",
 })
 
 
@@ -68,10 +74,22 @@ def plain_ticks(axes: Axes, values: Sequence[float]) -> None:
 
 
 def logarithmic(axes: Axes, ticks: Sequence[float]) -> None:
-    """Both scales, with numbers at some places along x."""
+    """Both scales, with numbers at some places along x, and at more than powers of ten where y has few."""
     axes.set(xscale="log", yscale="log")
     axes.set_xticks(ticks, labels=[f"{tick:g}" for tick in ticks])
     axes.minorticks_off()
+    low, high = axes.get_ylim()
+    if high < 100*low:
+        numbered(axes.yaxis)
+
+
+def numbered(axis: Any, steps: tuple[float, ...] = ()) -> None:
+    """Numbers at these steps of each power of ten, or as many as have room, no others, written out."""
+    low, high = axis.get_view_interval()
+    steps = steps or ((1,) if high > 100*low else (1, 2, 5))
+    axis.set_major_locator(LogLocator(subs=steps) if high > 5*low else MaxNLocator(5))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axis.set_minor_formatter(NullFormatter())
 
 
 def width(axes: Axes) -> float:
@@ -81,8 +99,9 @@ def width(axes: Axes) -> float:
 
 
 def below(axes: Axes, **more: Any) -> None:
-    """The legend below the axes, where it covers no data."""
-    axes.legend(**{"loc": "upper center", "bbox_to_anchor": (0.5, -0.14), **more})
+    """The legend below the axes and their label, where it covers no data."""
+    lower = axes.transAxes + ScaledTranslation(0, BELOW, axes.figure.dpi_scale_trans)
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, 0), bbox_transform=lower, **more)
 
 
 def save(page: Figure, path: Path) -> None:

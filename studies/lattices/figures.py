@@ -3,7 +3,8 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from studies.kit.figure import Drawing, Drawings, errorbar, figure, look, plain_ticks
+from studies.build.words import name_of
+from studies.kit.figure import Drawing, Drawings, errorbar, figure, look, numbered, plain_ticks
 from studies.kit.table import groups
 from studies.lattices.loss import fitted, projected
 
@@ -19,11 +20,14 @@ def freezing(rows: pd.DataFrame, limits: pd.DataFrame) -> Figure:
     keys = ["weight", "step"]
     rows, limits = rows.sort_values("P").set_index(keys), limits.groupby(keys).mean(numeric_only=True)
     for number, (layer, label) in enumerate(LAYERS.items()):
-        some, style = rows.loc[[layer]], look(number)
+        some = rows.loc[[layer]]
         errorbar(left, some["P"], some["flow"], some["flow_err"], number=number, label=label)
-        right.plot(some["P"], some["lindemann"], **{**style, "linestyle": "none"})
+        right.plot(some["P"], some["lindemann"], **{**look(number), "linestyle": "none"})
+    for number, (weight, side) in enumerate({"Lucy": "left", "Monaghan": "right"}.items()):
         for name, dashes in (("melting", "--"), ("barrier", ":")):
-            left.axvline(limits.loc[layer, name], color=style["color"], linestyle=dashes, linewidth=0.9)
+            at = limits.loc[(weight, 1.0), name]
+            left.axvline(at, color=look(number)["color"], linestyle=dashes, linewidth=0.9)
+            left.text(at, 0.9, weight, ha=side, va="top", rotation=90, fontsize=8)
     left.set(ylabel="K of mean flow / grid's, smoothed")
     right.set(ylabel="fluctuation of distances", ylim=(0, None))
     for axes in (left, right):
@@ -32,9 +36,8 @@ def freezing(rows: pd.DataFrame, limits: pd.DataFrame) -> Figure:
     right.set_xticks([0.5, 1, 2, 4, 8], labels=["0.5", "1", "2", "4", "8"])
     right.minorticks_off()
     page.legend(*left.get_legend_handles_labels(), loc="outside lower center", ncols=3)
-    page.suptitle("At which pressure do 512 particles freeze that should convect? Ideal gas, Ra 3000\n"
-                  "dashed: printed criterion of melting, dotted: of the largest potential; grey: a tenth",
-                  fontsize=10)
+    page.suptitle("512 particles that should convect freeze far above both criteria; ideal gas, Ra 3000\n"
+                  "dashed: printed criterion of melting, dotted: of the largest potential; grey: a tenth")
     return page
 
 
@@ -49,9 +52,8 @@ def reversal(rows: pd.DataFrame, twins: pd.DataFrame) -> Figure:
     axes.set(yscale="log", ylim=(3e-18, 30), xlabel=r"time $t/\sigma(m/\epsilon)^{1/2}$",
              ylabel=r"rms distance / $\sigma$")
     page.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=2)
-    page.suptitle(r"Do paths run back? $P\propto\rho^2$, Lucy's weight"
-                  "\nforward, velocities turned, and back; whole numbers: exactly 0, drawn at $10^{-17}$",
-                  fontsize=10)
+    page.suptitle("Only in whole numbers do paths run back: exactly, drawn at $10^{-17}$\n"
+                  r"$P\propto\rho^2$, Lucy's weight; forward, velocities turned, and back; grey: $\sigma/10$")
     return page
 
 
@@ -78,18 +80,18 @@ def stress(driven: pd.DataFrame, laws: pd.DataFrame, foretold: pd.DataFrame) -> 
         spread = (flow.max() - flow.min())/2
         errorbar(middle, list(spread.index), flow.mean(), spread, number=number, label=label,
                  linestyle=look(number)["linestyle"])
+    numbered(left.yaxis)
     middle.axhline(1, color="grey", linewidth=0.6)
     middle.set(xscale="log", xlabel="rows", ylabel="amplitude of vortices / exact")
     plain_ticks(middle, [25, 50, 100, 200])
     for number, (kind, some) in enumerate(groups(foretold[foretold["variant"].map(shown)], "variant")):
-        errorbar(right, some["measured"], some["predicted"], some["predicted_err"], number=number, label=kind,
-                 xerr=some["measured_err"])
+        errorbar(right, some["measured"], some["predicted"], some["predicted_err"], number=number,
+                 label=name_of("spam", kind), xerr=some["measured_err"])
     right.axline((0, 0), slope=1, color="grey", linewidth=0.6)
     right.set(xlabel="K measured / grid", ylabel="K foretold / grid", xlim=(-0.05, 1.3), ylim=(-0.05, 1.3))
     for axes in (left, middle, right):
         axes.legend(fontsize=7, loc=(0.48, 0.22) if axes is middle else "upper left")
-    page.suptitle("Why smooth particles do not converge: sheared, they bear a stress that rows do not lessen",
-                  fontsize=10)
+    page.suptitle("Why smooth particles do not converge: sheared, they bear a stress that rows do not lessen")
     return page
 
 

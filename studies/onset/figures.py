@@ -35,6 +35,7 @@ def line(energies: pd.DataFrame, lines: pd.DataFrame, critical: pd.DataFrame) ->
     upper.set(xlabel="")
     upper.legend(title="gas, $\\eta$ constant, line to 4 Ra$_c$")
     zeros(panels["zeros"], critical)
+    page.suptitle("K is nearly a straight line; where it ends depends on how far it reaches")
     return page
 
 

@@ -40,8 +40,7 @@ def symbols(rows: pd.DataFrame) -> Figure:
     legend(page, panels[0], 4, title_fontsize=8,
            title=r"weights with their ranges; broad and pale: $\hat f(k)$ of the same weight, "
                  "without a lattice")
-    page.suptitle("What weights leave of a wave along an axis; nested transport is blind to the shortest",
-                  fontsize=10)
+    page.suptitle("What weights leave of a wave along an axis; nested transport is blind to the shortest")
     return page
 
 
@@ -61,7 +60,7 @@ def growth(means: pd.DataFrame) -> Figure:
         axes.set_xticks(range(len(KINDS)), labels=KINDS, rotation=30)
     panels[0].set_ylabel("largest growth rate, $c/a$; grey: round-off")
     legend(page, panels[0], len(MAKERS))
-    page.suptitle("Sound on fixed points at rest: edges that close do not let it grow", fontsize=10)
+    page.suptitle("Sound on fixed points at rest: edges that close do not let it grow")
     return page
 
 
@@ -82,9 +81,9 @@ def shear(rows: pd.DataFrame) -> Figure:
     for axes in panels[-1]:
         axes.set_xlabel("rows between the plates")
     legend(page, panels[0, 0], 6)
-    page.suptitle("Shear flows that start from rest: do they converge on their exact series?\n"
+    page.suptitle("Shear flows converge as rows$^{-2}$, off a lattice only with points on the plates\n"
                   r"$H$: distance of the plates, $\nu$: kinematic viscosity, $t$: time from the start" "\n"
-                  "bars: 95 % over sets of points", fontsize=10)
+                  "bars: 95 % over sets of points")
     return page
 
 
@@ -103,8 +102,8 @@ def nested_growth(frame: pd.DataFrame) -> Figure:
         axes.legend(fontsize=7)
     panels[0].set_ylabel("largest growth rate  [$c/a$]")
     panels[0].set_ylim(-2e-6, 2*frame["growth"].max())
-    page.suptitle("Nested viscosity and conduction: does the motionless layer stay at rest?\n"
-                  "$a$: spacing of the points, $c$: speed of sound; 0: nothing grows", fontsize=10)
+    page.suptitle("With a range of $2a$ some transport along edges keeps the layer at rest, not with $3a$\n"
+                  "$a$: spacing of the points, $c$: speed of sound; 0: nothing grows")
     return page
 
 

@@ -47,8 +47,8 @@ def surface(means: pd.DataFrame) -> Figure:
         lower.set_xlabel("range $h/a$")
     handles = [curve for _, curve in sorted(curves.items())]
     page.legend(handles=handles, loc="outside lower center", ncols=len(curves))
-    page.suptitle("Must $a < r_0 < \\lambda$ hold?  Lucy's weight, renormalised; bars: 95 % over point sets",
-                  fontsize=10)
+    page.suptitle("On a lattice a short range is best, off it a range of several spacings\n"
+                  "Lucy's weight, renormalised; bars: 95 % over point sets")
     return page
 
 
@@ -67,8 +67,9 @@ def makers(means: pd.DataFrame) -> Figure:
         axes.plot(x, 0.35*(16/x)**2, color="grey", linestyle=":", marker="", label=r"$\lambda^{-2}$")
         axes.set(title=kind, xlabel=r"wavelength $\lambda/a$")
         logarithmic(axes, (*SIZES, 96))
-        below(axes, ncols=2, bbox_to_anchor=(0.5, -0.18))
     panels[0].set_ylabel("relative rms error of grad")
+    page.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=4)
+    page.suptitle("Off a lattice only exact and Delaunay edges come nearer to the gradient")
     return page
 
 
@@ -103,10 +104,10 @@ def over_range(flows: pd.DataFrame) -> Figure:
         left, _ = axes.get_xlim()
         axes.axvspan(left, 1/WIDTH, color="0.9", zorder=0, label="$r_0 < a$")
         axes.set_xlim(left=left)
-        below(axes, bbox_to_anchor=(0.5, -0.15), ncols=2)
+        below(axes, ncols=2)
     panels[0].set_ylabel("relative error")
-    page.suptitle("Must $a < r_0$ hold?  Lucy's weight, renormalised, on a lattice; dotted: 1 %, "
-                  "hollow: K too low", fontsize=10)
+    page.suptitle("Errors are least at the shortest ranges: $a < r_0$ need not hold on a lattice\n"
+                  "Lucy's weight, renormalised; dotted: 1 %, hollow: K too low")
     return page
 
 
@@ -132,8 +133,8 @@ def over_points(flows: pd.DataFrame) -> Figure:
     decorate(irregular, "convection", "irregular", ROWS)
     for axes in panels[:, 0]:
         axes.set_ylabel("relative error")
-    page.suptitle("Dotted: 1 %; hollow: K too low; bars: 95 % over point sets; lost: a set diverged",
-                  fontsize=10)
+    page.suptitle("Errors fall as rows$^{-2}$ on a lattice and on Delaunay edges, not on other edges\n"
+                  "dotted: 1 %; hollow: K too low; bars: 95 % over point sets; lost: a set diverged")
     return page
 
 
@@ -142,7 +143,7 @@ def decorate(axes: Axes, flow: str, kind: str, ticks: Sequence[float]) -> None:
     x = np.array([ticks[0], ticks[-1]], float)
     axes.plot(x, 0.02*(ticks[0]/x)**2, color="grey", linestyle="--", marker="", label="order 2")
     finish(axes, ticks, LENGTHS[flow] + "/a$", f"{NAMES[flow]}: {kind}")
-    below(axes, bbox_to_anchor=(0.5, -0.15), ncols=2, fontsize=7)
+    below(axes, ncols=2, fontsize=7)
 
 
 def finish(axes: Axes, ticks: Sequence[float], label: str, title: str) -> None:

@@ -25,7 +25,7 @@ TEXTS = ("equations", "findings", "tables")
 #: how ids of claims begin that texts name
 CLAIM = ("rr98-", "khp95-", "own-")
 #: of a picture of an example [pixels], and how many colours it keeps
-WIDTH, COLOURS = 960, 64
+WIDTH, COLOURS = 960, 128
 SCROLL = '<div class="scroll" tabindex="0" role="region" aria-label="Table"><table>'
 
 
@@ -128,5 +128,5 @@ def smaller(path: Path, folder: Path) -> Path:
     folder.mkdir(exist_ok=True)
     picture = Image.open(path).convert("RGB")
     picture.thumbnail((WIDTH, WIDTH))
-    picture.quantize(COLOURS, dither=Image.Dither.NONE).save(folder/path.name, optimize=True)
+    picture.quantize(COLOURS, kmeans=1, dither=Image.Dither.NONE).save(folder/path.name, optimize=True)
     return folder/path.name

@@ -29,15 +29,17 @@ def seconds(needed: pd.DataFrame, crossings: pd.DataFrame) -> Figure:
         here = f"scene == '{name}' and quantity == '{quantity}'"
         panel(axes, needed.query(here), crossings.query(f"{here} and rival == 'grid'"))
         axes.set_title(title)
-    some = set(needed[needed.cpu_s.notna()].method)
+    some = set(needed.query(f"cpu_s == cpu_s and ({COUNTED})").method)
     handles = [axes.plot([], [], **look(number), label=name)[0] for number, name in enumerate(METHODS)
                if name in some]
     page.legend(handles=handles, loc="outside lower center", ncols=4)
     page.supylabel("CPU seconds to 1 %", fontsize=10)
+    for axes in panels[-1]:
+        axes.set_xlabel("stream / flow (or sound)")
     never = " and ".join(name for name in METHODS if name not in some)
-    page.suptitle("What does 1 % cost in a stream, whose speed is 0 to 10 times the flow's (or sound's)?\n"
-                  "Hollow: by the order of the error; grey: moving points become cheaper than the grid"
-                  + f"\n{never} never come to 1 %"*bool(never), fontsize=10)
+    page.suptitle("In fast streams points that move come to an error of 1 % first in most flows\n"
+                  "hollow: by the order of the error; grey: moving points become cheaper than the grid"
+                  + f"\n{never} never come to 1 %"*bool(never))
     return page
 
 

@@ -12,7 +12,7 @@ from studies.build.moving import DRIFT_MOTIONS, MOTIONS
 from studies.build.names import ENERGY, ra_axis
 from studies.build.spam import VARIANTS
 from studies.build.words import name_of
-from studies.kit.figure import below, figure
+from studies.kit.figure import FILLS, below, figure
 from studies.kit.table import Tables, groups
 from studies.rb import looks
 from studies.rb.looks import BOX, ENERGIES, FROM_FLOW, GRID, KHP95_PARTICLES, KIND, LAYER, MARKS, OPEN, SPAM
@@ -26,7 +26,6 @@ SMOOTHED_GRID: Style = {"color": KIND["kg"]["color"], "marker": "", "linestyle":
 #: a second series of the same kind in one panel
 SECOND = {"linestyle": "--", **OPEN}
 ETA, NU = "constant $\\eta$", "constant $\\nu$"
-STROKES = ("-", "--", ":")      # of seeds
 RA = 10000      # of what changes of a scheme do
 #: how much lower the next coarser resolution stands
 LOWER = 0.36
@@ -96,7 +95,7 @@ def fig5(tables: Tables) -> Figure | None:
     finish(right)
     left.set(ylabel=ENERGY, title="ideal gas; particles at constant $\\nu$ moved right")
     right.set_title("van der Waals gas")
-    page.suptitle("Layer of aspect 2: grid and particles    [KHP95, Fig. 5]", fontsize=10)
+    page.suptitle("Smooth particles (spam) convect less than the grid and freeze early    [KHP95, Fig. 5]")
     return page
 
 
@@ -121,7 +120,7 @@ def fig6(tables: Tables) -> Figure | None:
     for axes, (kind, (column, words)) in zip(both, ENERGIES.items()):
         grid(axes, limit, "grid, extrapolated")
         for number, (_, group) in enumerate(reversed(groups(spam, "resolution"))):
-            smaller = {"markersize": 7 - 1.2*number, "zorder": 4 - number, **(OPEN if number else {})}
+            smaller = {"markersize": 7 - 1.2*number, "zorder": 4 - number, **FILLS[number]}
             many = f"{words}, {group['particles'].iloc[0]:.0f} particles"
             energies(axes, group, column, many, KIND[kind] | smaller, ASIDE*number)
     smoothed_grid(both[1], looks.seen(tables, **BOX, rows=spam["resolution"].max()), limit)
@@ -132,8 +131,8 @@ def fig6(tables: Tables) -> Figure | None:
     both[0].set(ylabel=ENERGY, ylim=(0, 1.1*max([*limit["ke"], *spam["ke"]])))
     for axes in both:
         finish(axes, "; smaller marks: moved right")
-    page.suptitle("Square box with four walls, ideal gas: grid and particles    [KHP95, Fig. 6]\n"
-                  "upper ends of long bars are cut", fontsize=10)
+    page.suptitle("In a square box few particles (spam) tremble more than they flow    [KHP95, Fig. 6]\n"
+                  "upper ends of long bars are cut")
     return page
 
 
@@ -148,12 +147,12 @@ def fig8(tables: Tables) -> Figure | None:
     page, axes = figure(width=7, height=4.2)
     for kind, (column, words) in ENERGIES.items():
         for number, (_, run) in enumerate(groups(spam, "seed")):
-            style = KIND[kind] | {"marker": "", "lw": 0.9, "alpha": 0.8, "linestyle": STROKES[number % 3]}
+            style = KIND[kind] | {"marker": "", "lw": 0.9, "alpha": 0.8}
             first = "" if number else f"{words}, one line a seed"
             axes.plot(run["t_viscous"], run[column], label=first, **style)
     style = KIND["grid"] | {"marker": "", "lw": 2.2}
     axes.plot(cells["t_viscous"], cells["ke"], label="grid", **style)
-    axes.set(title=f"Approach to steady rolls at Ra = {spam['ra'].max():g}    [KHP95, Fig. 8]",
+    axes.set(title=f"Particles (spam) lag behind the grid, Ra = {spam['ra'].max():g}    [KHP95, Fig. 8]",
              xlabel=r"time  [$L^2/\nu$]; 1 is 5000 in KHP95's units", ylabel=ENERGY, ylim=(0, None))
     axes.legend(loc="upper right")
     return page
@@ -164,15 +163,16 @@ def variants(tables: Tables) -> Figure | None:
     Filled marks have 50 rows of particles, open ones 25.
     """
     energies = {"Kp": ENERGIES["kp"][1], "Kg": ENERGIES["kg"][1]}
-    return changes(tables, "spam", VARIANTS, (50, 25), energies, "Which change of the printed scheme helps?")
+    see = "No change of the printed scheme makes both energies right"
+    return changes(tables, "spam", VARIANTS, (50, 25), energies, see)
 
 
 def moving_points(tables: Tables) -> Figure | None:
     """Errors of the kinetic energy on points that move: with their triangulation, over closed faces with and
     without each ingredient, by the motions of RR98. Filled marks have 40 rows of points, open ones 25.
     """
-    question, order = "Points that move: what do their ingredients do?", (*MOTIONS, *DRIFT_MOTIONS)
-    return changes(tables, "dih", ("moving-delaunay", *order), (40, 25), {"Kp": "$K$"}, question)
+    see = "Moving points need the shift and volumes that follow; RR98's motions lose much of K"
+    return changes(tables, "dih", ("moving-delaunay", *MOTIONS, *DRIFT_MOTIONS), (40, 25), {"Kp": "$K$"}, see)
 
 
 def changes(tables: Tables, method: str, order: Iterable[str], sizes: tuple[int, int],
@@ -195,9 +195,10 @@ def changes(tables: Tables, method: str, order: Iterable[str], sizes: tuple[int,
     for row in gone.itertuples():
         say_diverged(axes, row, at[row.variant] + LOWER*sizes.index(row.resolution))
     axes.set_yticks(range(len(names)), labels=[name_of(method, name) for name in names], fontsize=8)
-    axes.set(ylabel="variant", ylim=(len(names) - 0.4, -0.6), title=f"{title}  Ra = {RA}",
+    axes.set(ylabel="method", ylim=(len(names) - 0.4, -0.6),
              xlabel=f"error of $K$ against the grid  [%], linear to {LINEAR} %, logarithmic beyond")
     symlog(axes, frame["error"])
+    page.suptitle(f"{title}; Ra = {RA}")
     page.legend(loc="outside lower center", ncols=3, title_fontsize=8,
                 title=f"filled: {sizes[0]} rows, open: {sizes[1]}; bars: 95 % intervals")
     return page

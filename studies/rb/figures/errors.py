@@ -6,11 +6,10 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from studies.build.words import name_of
 from studies.kit import fits
-from studies.kit.figure import LINES, below, figure, look, plain_ticks
+from studies.kit.figure import LINES, below, figure, look, numbered, plain_ticks
 from studies.kit.table import Tables
 from studies.rb import looks
 from studies.rb.looks import ENERGIES, KIND, LAYER, MARKS, OPEN, RA_SHOWN
@@ -30,11 +29,12 @@ METHODS: dict[str, Style] = {
     "dih fixed-lattice Kp": {**look(2), "marker": "v", "linestyle": LINES[4]},
     "dih fixed-jittered-plates Kp": {**look(4), "marker": "<"},
     "dih moving-delaunay Kp": {**look(7), "marker": "*", "markersize": 8},
-    "dih moving Kp": {**look(6), "marker": "P"},
+    "dih moving Kp": {**look(6), "marker": ">"},
     "spam printed Kp": KIND["kp"],
     "spam printed Kg": KIND["kg"],
     "spam printed Nu": KIND["nu"],
 }
+OF_SPAM = {f"spam printed {energy}" for energy in WORDS}
 EDGES = {
     "on a lattice, weight of Lucy": (
         "fixed-lattice", "fixed-lattice-h3", "fixed-lattice-nested", "fixed-lattice-nested-only",
@@ -53,18 +53,23 @@ def convergence(tables: Tables) -> Figure | None:
     """
     chosen = of_series(looks.errors(tables, **LAYER), METHODS)
     ras = [ra for ra in RA_SHOWN if (chosen["ra"] == ra).any()]
+    kinds = [{key: METHODS[key] for key in METHODS if (key in OF_SPAM) == smooth} for smooth in (False, True)]
+    kinds = [keys for keys in kinds if len(of_series(chosen, keys))]
     if not ras:
         return None
-    page, [line] = figure(1, len(ras), height=5.8, **PANEL)
-    for axes, ra in zip(line, ras):
-        smoothing(axes, looks.seen(tables, **LAYER, ra=ra))
-        over_rows(axes, chosen[chosen["ra"] == ra], METHODS)
-        finish(axes, f"Ra = {ra:g}", chosen)
-        below(axes, title=PALE, title_fontsize=8)
-    line[0].set_ylabel("relative error")
-    page.suptitle("Does $K$ converge, does the heat transport?\n"
+    page, lines = figure(len(kinds), len(ras), height=4.4, **PANEL)
+    for line, keys in zip(lines, kinds):
+        rows = of_series(chosen, keys)
+        for axes, ra in zip(line, ras):
+            if keys.keys() == OF_SPAM:
+                smoothing(axes, looks.seen(tables, **LAYER, ra=ra))
+            over_rows(axes, rows[rows["ra"] == ra], keys)
+            finish(axes, f"Ra = {ra:g}", rows)
+            below(axes, title=PALE, title_fontsize=8)
+        line[0].set_ylabel("relative error")
+    page.suptitle("Grids and points converge, smooth particles do not, but for their heat transport\n"
                   r"$|K_p/K - 1|$, $|K_g/K_\mathrm{smoothed} - 1|$, $|\mathrm{Nu}_p/\mathrm{Nu} - 1|$"
-                  f"\n{SIGNS}", fontsize=10)
+                  f"\n{SIGNS}")
     return page
 
 
@@ -87,7 +92,7 @@ def fixed_points(tables: Tables) -> Figure | None:
         axes.legend(loc="center left", bbox_to_anchor=(1, 0.5), title=PALE, title_fontsize=8)
         axes.set_ylabel(r"$|K/K_\mathrm{grid} - 1|$")
     page.suptitle("Points that stay converge on a lattice and with Delaunay edges,\n"
-                  f"not with edges of a weight off a lattice (Ra = {max(RA_SHOWN)})\n{SIGNS}", fontsize=10)
+                  f"not with edges of a weight off a lattice (Ra = {max(RA_SHOWN)})\n{SIGNS}")
     return page
 
 
@@ -165,8 +170,6 @@ def finish(axes: Axes, title: str, line: pd.DataFrame) -> None:
     size = line["error"].abs()
     axes.set(xscale="log", yscale="log", title=title, xlabel=ROWS, ylim=(0.4*size.min(), 2*size.max()))
     for axis in (axes.xaxis, axes.yaxis):
-        axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-        axis.set_minor_formatter(NullFormatter())
-    axes.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        numbered(axis, (1, 2, 5))
     plain_ticks(axes, sorted({*line["resolution"]}))
     axes.tick_params(labelbottom=True)

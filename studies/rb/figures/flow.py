@@ -141,7 +141,7 @@ def fig9(tables: Tables) -> Figure | None:
     particles. Both sides have the same levels.
     """
     runs = {"grid": run_of(tables, "fields", **GRID, **LAYER),
-            "particles, mean": run_of(tables, "fields", **SPAM, **LAYER)}
+            "spam, mean": run_of(tables, "fields", **SPAM, **LAYER)}
     ras = {ra for run in runs.values() for ra in run["ra"].unique()}
     if len(ras) != 1 or any(run.empty for run in runs.values()):
         return None
@@ -156,7 +156,7 @@ def fig9(tables: Tables) -> Figure | None:
         page.colorbar(drawn, ax=line, label=words, shrink=0.9)
     for axes in all_axes[1]:
         axes.set_xlabel("$x/L$")
-    page.suptitle(f"Density and temperature, Ra = {ras.pop():g}, same levels    [KHP95, Fig. 9]", fontsize=10)
+    page.suptitle(f"Density and temperature, Ra = {ras.pop():g}, same levels    [KHP95, Fig. 9]")
     return page
 
 
