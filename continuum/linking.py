@@ -14,15 +14,14 @@ _finalize = CPUCodeLibrary._finalize_final_module
 
 
 def _finalize_with_own_copies(library: Any) -> None:
-    """numba's last step before machine code, with a name of its own for each copy."""
+    """numba's last step, to machine code; for callers, which optimise them once more, copies stay open."""
     copies = [function for function in library._final_module.functions
               if not function.is_declaration and function.linkage == Linkage.linkonce_odr]
-    if copies:
-        library._finalized = True           # its optimised code is
-        library._get_module_for_linking()   # kept for callers, which optimise it as ever
-        for function in copies:
-            function.linkage = "internal"
+    for function in copies:
+        function.linkage = "internal"
     _finalize(library)
+    for function in copies:
+        function.linkage = "linkonce_odr"
 
 
 setattr(CPUCodeLibrary, "_finalize_final_module", _finalize_with_own_copies)  # noqa: B010  (mypy allows it so)
