@@ -1,9 +1,9 @@
 """One result whatever was compiled before: compiled code calls its own copies of what it calls.
 
-numba puts the optimised code of a function into each function that calls it, and optimises it once more there.
-What is not inlined stays as a copy under the old name. Loaded from disk alone a function finds its own copy; in
-the process that compiled both, LLVM takes whichever came first, and sums in another order have other last digits.
-`continuum.jit` imports this module. No case reaches it: results are those of a filled cache, as before.
+numba puts the optimised code of a function into each function that calls it, and optimises it once more
+there. What is not inlined stays as a copy under the old name. Loaded from disk alone a function finds its own
+copy. In the process that compiled both, LLVM takes the one that came first, whose sums may have another order
+and so other last digits. `continuum.jit` imports this module. Results are those of a filled cache, as before.
 """
 from typing import Any
 
