@@ -28,6 +28,8 @@ import numba  # noqa: E402
 from numba.core import caching  # noqa: E402
 from numba.extending import overload, register_jitable  # noqa: E402
 
+import continuum.linking  # noqa: E402, F401  (before anything is compiled)
+
 _load_index = caching.IndexDataCacheFile._load_index
 
 

@@ -1,9 +1,28 @@
 """Fields of a state, in terms that all methods share, and their kinetic energy."""
+from math import isfinite
+from numbers import Real
 from typing import Any
 
 import numpy as np
 
 from continuum.fluid import Fields, temperature
+
+
+def check_numbers(**numbers: Any) -> None:
+    """Refuse what is no number, TypeError, or none that is finite, ValueError."""
+    for name, value in numbers.items():
+        if isinstance(value, bool) or not isinstance(value, Real):
+            raise TypeError(f"{name} must be a number, got {value!r}: give it without quotes or brackets")
+        if not isfinite(value):
+            raise ValueError(f"{name} must be finite, got {value}: take one that a float holds")
+
+
+def check_plain(what: str, *arrays: Any) -> None:
+    """Refuse arrays that are not of real numbers, or have a mask: TypeError."""
+    for given in arrays:
+        if np.asanyarray(given).dtype.kind not in "iuf" or isinstance(given, np.ma.MaskedArray):
+            kind = f"{type(given).__name__} of {np.asanyarray(given).dtype}"
+            raise TypeError(f"{what} are an array of numbers, got {kind}: give real ones, without a mask")
 
 
 def from_densities(eos: Any, x: np.ndarray, V: np.ndarray, rho: np.ndarray, p: np.ndarray,

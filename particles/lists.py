@@ -13,7 +13,7 @@ from particles.pairs import empty_pairs, weigh
 from particles.threads import Threads
 from particles.walls import check_ends, confine, fixed_points, move_images, parents, place_images
 from particles.walls.mirror import Mirror
-from particles.walls.periodic import Shift, wrap
+from particles.walls.periodic import wrap
 
 EMPTY = np.empty(0)
 ROUND_OFF = 1e-12       # of places: that of some thousand operations
@@ -25,16 +25,23 @@ def fastest(state: np.ndarray) -> float:
     return float(np.sqrt((state[2]**2 + state[3]**2).max()))
 
 
-def outside(walls: tuple, state: np.ndarray) -> np.ndarray:
-    """Numbers of the particles that walls would reflect, or that are more than a period beyond their box."""
+def outside(walls: tuple, state: np.ndarray, box: tuple[float, float]) -> np.ndarray:
+    """Numbers of the particles that walls would reflect, or that are more than a box beyond the box."""
     inside = state.copy()
     for wall in walls:
         confine(wall, inside)
-    lost = (inside[:2] != state[:2]).any(axis=0)
-    for wall in walls:
-        if isinstance(wall, Shift):
-            lost |= np.abs(state[wall.axis]) > 3*(1 + ROUND_OFF)*abs(wall.near)
-    return np.flatnonzero(lost)
+    far = np.abs(state[:2]) > 1.5*(1 + ROUND_OFF)*np.array(box)[:, None]
+    return np.flatnonzero(((inside[:2] != state[:2]) | far).any(axis=0))
+
+
+def check_room(weight: Any, walls: tuple, box: tuple[float, float]) -> None:
+    """Refuse a box that is none, a weight that is too wide for it, and walls of another one: ValueError."""
+    if len(box) != 2 or not all(0 < side < np.inf for side in box):
+        raise ValueError(f"a box is (width, height), both positive and finite, got {box}")
+    if 2*weight.h > min(box):
+        raise ValueError(f"the weight's diameter 2 h = {2*weight.h:g} is wider than the box {box[0]:g} x "
+                         f"{box[1]:g}: take more particles or a shorter range")
+    check_ends(walls, box)
 
 
 class PairLists:
@@ -48,10 +55,7 @@ class PairLists:
     def __init__(self, weight, walls, n: int, box: tuple[float, float], *, skin: float, threads: Threads):
         if not skin > 0:
             raise ValueError(f"the skin of the neighbour list must be positive, got {skin}: take 0.2 h")
-        if 2*weight.h > min(box):
-            raise ValueError(f"the weight's diameter 2 h = {2*weight.h:g} is wider than the box {box[0]:g} x "
-                             f"{box[1]:g}: take more particles or a shorter range")
-        check_ends(walls, box)
+        check_room(weight, walls, box)
         self.weight, self.walls, self.skin, self.threads, self.n = weight, walls, skin, threads, n
         holding = [wall for wall in walls if type(wall) in fixed_points.kinds]
         held = [fixed_points(wall, *box) for wall in holding] or [(EMPTY, EMPTY, EMPTY)]

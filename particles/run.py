@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from particles.checkpoint import load, save
+from particles.fields import check_plain
 from particles.integrators import RK4
 from particles.limits import limit_of
 from particles.lists import outside
@@ -90,11 +91,8 @@ def _record(plan: Plan, sums, now: Run) -> None:
 
 def _particles(method, start: ArrayLike) -> np.ndarray:
     """The start as an array (fields, n) of float64."""
-    given = np.asanyarray(start)
-    if given.dtype.kind not in "iuf" or isinstance(given, np.ma.MaskedArray):
-        raise TypeError(f"particles are an array of numbers, got {type(given).__name__} of {given.dtype}: "
-                        "give real ones, without a mask")
-    state = np.asarray(given, float)
+    check_plain("particles", start)
+    state = np.asarray(start, float)
     if state.ndim != 2 or state.shape[0] != len(method.names) or state.shape[1] < 1:
         raise ValueError(f"particles are an array ({len(method.names)}, n) of {', '.join(method.names)} with "
                          f"n >= 1, got {state.shape}")
@@ -104,8 +102,8 @@ def _particles(method, start: ArrayLike) -> np.ndarray:
 def _check_start(method, start: np.ndarray, plan: Plan) -> None:
     if not np.isfinite(start).all():
         raise ValueError("the particles at the start are not finite: " + _where(method, start))
-    walls = getattr(method, "walls", ())     # a method on fixed points has none
-    if len(lost := outside(walls, start)):
+    walls = getattr(method, "walls", None)      # a method on fixed points has none
+    if walls is not None and len(lost := outside(walls, start, method.box)):
         i, (width, height) = lost[0], method.box
         raise ValueError(f"particle {i} at ({start[0, i]:g}, {start[1, i]:g}) is beyond a wall of the box "
                          f"|x| <= {width/2:g}, |y| <= {height/2:g} ({len(lost)} of {start.shape[1]} are): "

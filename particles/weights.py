@@ -25,6 +25,7 @@ def slope(weight, q):
     """phi'(q)/q, not normalised."""
 
 
+LONGEST = 1e100     # its cube is still a number
 Formula = Callable[[None, float], float]
 #: where the slope is held against a difference: beside the knots of splines
 PLACES, STEP = (0.1370, 0.3891, 0.6129, 0.8713), 1e-5
@@ -89,6 +90,8 @@ class Weight(_Fields):
             raise TypeError(f"the range h of a weight must be a number, got {h!r}: KHP95 use h = 3 sigma")
         if not 0 < h < inf:
             raise ValueError(f"the range h of a weight must be positive and finite, got {h}: take 3 sigma")
+        if not 1/LONGEST < h < LONGEST:
+            raise ValueError(f"no float holds h^d of a weight of range h = {h}: take 3 sigma")
         if d not in (1, 2, 3):
             raise ValueError(f"weights exist in d = 1, 2, 3 dimensions, got d = {d}")
         phi, over_q = formulas(cls)

@@ -12,8 +12,8 @@ from particles.weights import Lucy, Monaghan, WendlandC2
 BOX, SIDE = (8.0, 8.0), 8
 
 
-def spam(weight, eos=IdealGas(), law=ConstEta(0.3, 0.2), **other) -> Spam:  # noqa: B008
-    return Spam(weight=weight, eos=eos, law=law, walls=everywhere(BOX), box=BOX, **other)
+def spam(weight, eos=IdealGas(), law=ConstEta(0.3, 0.2), box=BOX, **other) -> Spam:  # noqa: B008
+    return Spam(weight=weight, eos=eos, law=law, walls=everywhere(box), box=box, **other)
 
 
 def still(e) -> np.ndarray:
@@ -53,7 +53,7 @@ def test_long_waves_are_sound_shear_and_heat(eos, gamma, transport):
     nu, kappa, e = 0.02, 0.03, float(energy(eos, 1.0, 1.0))
     weight = WendlandC2.of(h=6.0)
     rho = lattice_sums(weight, 1.0, 1.0, zone(1.0, 2)).rho
-    method = spam(weight, eos, ConstEta(nu, kappa), transport=transport,
+    method = spam(weight, eos, ConstEta(nu, kappa), (16.0, 16.0), transport=transport,
                   static=LessStatic(1.0, pressure(eos, rho, e)))
     for k in (0.2, 0.1, 0.05):
         modes = waves(method, lattice_sums(weight, 1.0, 1.0, np.array([[k, 0.0]])), e)[0]

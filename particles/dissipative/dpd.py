@@ -46,7 +46,7 @@ class Dpd:
         for name in ("a", "gamma", "kT", "skin"):
             if not 0 <= getattr(self, name) < inf:
                 raise ValueError(f"{name} must be zero or positive, got {getattr(self, name)}")
-        if len(self.box) not in (2, 3) or not min(self.box) >= 3:
+        if len(self.box) not in (2, 3) or not all(3 <= side < inf for side in self.box):
             raise ValueError(f"the box {self.box} needs two or three sides of at least 3, or a particle "
                              "meets the same one twice: take a larger box")
 

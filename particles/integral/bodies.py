@@ -27,15 +27,18 @@ class Held(NamedTuple):
 def held(which: np.ndarray, v: tuple[float, float] = (0.0, 0.0), T: float = np.nan,
          heat: float = 0.0) -> Held:
     """Points of one velocity and temperature. ValueError: there are none, or one twice, or T <= 0."""
-    which = np.asarray(which)
-    if which.dtype.kind not in "iu" or (which < 0).any():
+    which, velocity = np.asarray(which), np.asarray(v, float)
+    if which.ndim != 1 or (len(which) and which.dtype.kind not in "iu") or (which < 0).any():
         raise ValueError(f"held points are named by whole numbers from 0 on, got {which}")
     if len(which) < 1 or len(np.unique(which)) < len(which):
         raise ValueError(f"{len(which)} points are to be held, {len(np.unique(which))} of them different: "
                          "name at least one, and each once")
     if T <= 0:
         raise ValueError(f"held points have T = {T:g}, which must be positive; leave it out: no heat passes")
-    return Held(which, np.tile(np.asarray(v, float), (len(which), 1)), np.full(len(which), float(T)),
+    if velocity.shape != (2,) or not np.isfinite([*velocity, heat]).all() or np.isinf(T):
+        raise ValueError(f"held points have v = {v}, heat = {heat}, T = {T}: give two components, and finite "
+                         "numbers")
+    return Held(which, np.tile(velocity, (len(which), 1)), np.full(len(which), float(T)),
                 np.zeros(len(which), int), np.full(len(which), float(heat)))
 
 

@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 from scipy.spatial import cKDTree
 
+from particles.fields import check_plain
 from particles.integral.interpolants import W, check, reach
 
 
@@ -16,7 +17,8 @@ class Points:
     V: np.ndarray
 
     def __post_init__(self):
-        n, d = self.x.shape
+        check_plain("points", self.x, self.box, self.V)
+        n, d = self.x.shape if self.x.ndim == 2 else (0, 0)
         if n < 2 or d not in (1, 2, 3) or self.box.shape != (d,) or self.V.shape != (n,):
             raise ValueError(f"need points (n >= 2, d = 1, 2, 3), box (d,) and V (n,); got {self.x.shape}, "
                              f"{self.box.shape}, {self.V.shape}")
@@ -48,12 +50,17 @@ class Points:
 
 def of_positions(x: np.ndarray, box: Any) -> Points:
     """Points of equal volume."""
+    check_plain("sides of a box", box)
     box = np.asarray(box, float)
+    if not np.isfinite(box).all():
+        raise ValueError(f"the box of points must be finite, got {box}")
     return Points(x=x, box=box, V=np.full(len(x), np.prod(box)/len(x)))
 
 
 def lattice(counts: tuple[int, ...], a: float = 1.0) -> Points:
     """Square lattice with so many points along each axis, spacing a."""
+    if not all(count == int(count) for count in counts):
+        raise ValueError(f"a lattice has whole numbers of points along its axes, got {counts}")
     axes = [(np.arange(c) + 0.5 - c/2)*a for c in counts]
     x = np.stack([q.ravel() for q in np.meshgrid(*axes, indexing="ij")], axis=1)
     return of_positions(x, np.array(counts)*a)

@@ -9,9 +9,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.fluid import constant_viscosity, energy
-from particles.fields import Fields
+from continuum.fluid import constant_viscosity, energy, pressure, viscosity
+from continuum.jit import check_formulas
+from particles.fields import Fields, check_numbers
 from particles.integrators import RK4
+from particles.lists import check_room
 from particles.smooth.sums import Direct, Nested
 from particles.terms import ArithmeticGradients, Gradients
 from particles.threads import Threads
@@ -53,9 +55,13 @@ class Spam:
     names = ("x", "y", "vx", "vy", "e")
 
     def __post_init__(self):
+        check_numbers(m=self.m, g=self.g, skin=self.skin)
         if not self.m > 0:
             raise ValueError(f"the mass of a particle must be positive, got {self.m}")
+        check_formulas(self.eos, pressure, energy)
+        check_formulas(self.law, viscosity)
         check_unit(self.weight)
+        check_room(self.weight, self.walls, self.box)
         if not hasattr(self.transport, "symbol"):
             raise TypeError(f"{self.transport} does not say which waves it damps: inherit Nested or Direct, "
                             "or set symbol")

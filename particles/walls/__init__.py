@@ -3,7 +3,7 @@
 A wall is a NamedTuple. It makes ghosts, each the image of a parent (a fluid particle, a fixed one or a ghost
 of an earlier wall), and keeps the particles inside. One kind of wall a file.
 """
-from math import isclose
+from math import inf, isclose
 
 from continuum.jit import generic, jit
 
@@ -54,6 +54,9 @@ def check_ends(walls: tuple, box: tuple[float, float]) -> None:
         at, axis = getattr(plate, "at", getattr(plate, "near", None)), getattr(plate, "axis", 1)
         if at is None:
             continue        # a kind of one's own
+        T = getattr(plate, "T", 1.0)
+        if not 0 < T < inf and (plate is wall or T == T):       # nan: heat is given in its place
+            raise ValueError(f"the temperature of {wall} must be positive and finite")
         if not isclose(abs(at), box[axis]/2, rel_tol=1e-9) or (axis, at > 0) in ends:
             raise ValueError(f"{wall} is not at an end of the box {box[0]:g} x {box[1]:g}, or another wall "
                              "is there already: make the walls for this box, one for each end")

@@ -21,6 +21,9 @@ class FixedRows(NamedTuple):
 def fixed_plates(height: float, T_hot: float, T_cold: float, rows: int = 6, spacing: float = 1.0) -> tuple:
     """Hot plate below, cold one above; their rows go on with the conduction profile. Two ranges are six rows.
     Raises ValueError: the profile reaches T = 0 within the rows above the cold plate."""
+    if not (rows == int(rows) and rows >= 1 and spacing > 0):
+        raise ValueError(f"behind a plate are whole rows, at least one, and a spacing above 0, got rows = "
+                         f"{rows}, spacing = {spacing}: KHP95 have 6 rows, 1 apart")
     slope = (T_cold - T_hot)/height
     last = T_cold + slope*(rows - 0.5)*spacing
     if not last > 0:

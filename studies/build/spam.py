@@ -1,6 +1,7 @@
 """Smooth particles: the scheme as printed and its variants, in any scene    [KHP95]"""
 from collections.abc import Callable
 from functools import cache
+from math import isclose
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -26,6 +27,8 @@ from studies.build.setting import walls as around
 #: it, an error of first order: half of the step raises Nu by 4 % at 16 rows, 0.6 % at 25, 0.2 % at 50.
 OF_LIMIT = 0.22
 FRICTIONLESS = ConstEta(0.0, 0.0)
+#: walls of a box; how near particles must come to filling it, when their densities are given
+ENDS, FILLED = 4, 0.1
 
 
 def images(scene: Any) -> tuple:
@@ -129,6 +132,8 @@ def method(scene: Any, variant: Variant) -> Spam:
                         "class, such as Lucy, and its range as h")
     p = pressure(eos, 1.0, energy(eos, 1.0, scene.T_mean))
     walls = around if isinstance(scene.sides, Torus) else variant.walls
+    if (ends := len(walls(scene))) != ENDS:
+        raise ValueError(f"walls of {variant.name} are {ends}, a box has {ENDS} ends: make one for each")
     return Spam(weight=weight.of(variant.h), eos=eos, law=scene.law, walls=walls(scene),
                 box=(scene.width, scene.L), g=scene.g, gradients=variant.gradients,
                 transport=variant.transport, static=LessStatic(variant.fraction, float(p)))
@@ -144,8 +149,18 @@ def step(scene: Any, variant: Variant) -> float:
 def start(scene: Any, seed: int = 1, begin: Any = None, x: Any = None, fields: Any = None) -> np.ndarray:
     """State (5, n); `begin` as a variant has it."""
     x = scattered(scene, seed) if x is None else x
+    if fields:
+        check_mass(scene, fields[0]*np.ones(len(x)))
     _, v, T = fields or (begin(scene, x) if begin else scene.fields(x))
     return np.array([*x.T, *v.T, energy(scene.eos, 1.0, T)])
+
+
+def check_mass(scene: Any, rho: np.ndarray) -> None:
+    """Refuse densities that so many particles of unit mass do not have: ValueError."""
+    filled, room = float(np.sum(1/rho)), scene.width*scene.L
+    if not isclose(filled, room, rel_tol=FILLED):
+        raise ValueError(f"{len(rho)} particles of unit mass fill {filled:.4g} of a box of {room:.4g} at the "
+                         "densities given, which smooth particles have by their places: give other places")
 
 
 def scattered(scene: Any, seed: int) -> np.ndarray:

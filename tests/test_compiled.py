@@ -1,0 +1,37 @@
+"""The same bytes whatever was compiled before, by this process or another, and in which order."""
+import os
+import subprocess
+import sys
+
+import pytest
+
+GRIDS = '''
+import sys
+from continuum.gas.fields import block, initial
+from continuum.gas.newton import Discrete
+from continuum.gas.solve import run
+from continuum.pypde.gas import Gas
+from continuum.pypde.solve import solve
+from continuum.scene import RayleighBenard
+from continuum.steady import Time
+
+GAS, UNTIL = RayleighBenard(ra=5000), Time(20.0, samples=2)
+grid = Discrete(GAS, 12)
+WAYS = {"run": lambda: run(GAS, 12, until=UNTIL).fields.cells,
+        "rates": lambda: grid.rates(grid.unknowns(block(initial(GAS, 12)))),
+        "py-pde": lambda: solve(Gas(GAS, rows=12), until=UNTIL).state}
+print(*sorted(f"{way} {WAYS[way]().tobytes().hex()}" for way in sys.argv[1:]))
+'''
+
+
+def results(cache, *ways: str) -> str:
+    """Bytes of the solutions of a process that solves in these ways, one after the other."""
+    done = subprocess.run([sys.executable, "-c", GRIDS, *ways], capture_output=True, text=True, check=True,
+                          env={**os.environ, "NUMBA_CACHE_DIR": str(cache)})
+    return done.stdout
+
+
+@pytest.mark.parametrize("ways", [("run", "rates"), ("py-pde",)], ids=" ".join)
+def test_a_cold_and_a_warm_cache_give_the_same_bytes_in_any_order(ways, tmp_path):
+    cold = results(tmp_path, *ways)
+    assert len(cold) > 1000 and cold == results(tmp_path, *ways) == results(tmp_path, *reversed(ways))
