@@ -6,13 +6,10 @@ import pytest
 import studies.conservation.cases as conservation
 from continuum.fluid import IdealGas
 from particles.fields import Fields
-from particles.integral.dih import NestedFluxes
 from particles.integral.points import lattice
 from particles.weights import Monaghan
 from studies.conservation.drift import MODES, PLATES, MovingDrift
 from studies.conservation.sums import Unsymmetric, random_fields, sizes
-
-PRINTED = NestedFluxes(differences=False)
 
 
 def row(case, table="drift"):

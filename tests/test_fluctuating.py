@@ -147,9 +147,3 @@ NEGATIVE = r"of point \d+ is -0\.\d, which must not be negative"
 def test_what_has_no_noise_is_refused(d, make, given, message):
     with pytest.raises(ValueError, match=message):
         make(edges_of("delaunay", "random", d), *given)
-
-
-def test_a_share_is_a_share():
-    edges = edges_of("delaunay", "random", 2)
-    with pytest.raises(ValueError, match="between 0"):
-        fluctuating.mixed(fluctuating.heat(edges, 0.3, KT), fluctuating.conduction(edges, 0.3, KT), 1.1)

@@ -16,7 +16,7 @@ from particles.integral.rr98_moving_plain import (
 )
 from particles.integrators import RK4, Euler, TwoStep
 from particles.weights import Lucy, WendlandC2
-from studies.conservation.motions import MovingSound, Pattern, by_halves, frequency, march, moving, seen
+from studies.conservation.motions import MovingSound, Pattern, march, moving, seen
 
 COUNTS = {1: (14,), 2: (7, 8), 3: (5, 5, 5)}
 TRANSPORT = {"nested": NestedFluxes(), "pairwise": Pairwise(mended=False), "mended": Pairwise()}
@@ -128,12 +128,6 @@ def test_sound_on_moving_points_goes_at_predicted_speeds(motion, tmp_path):
     [row] = case.run(lambda done: None, tmp_path).rows["moving_sound"]
     # of the square of the amplitude, 1e-8, over the change of c that resonance of its double can make
     assert row["speed"] == pytest.approx(row["predicted"], rel=1e-3)
-
-
-def test_the_frequency_of_a_wave_that_decays():
-    t = np.arange(40)*0.3
-    assert frequency(np.exp(-0.02*t)*np.cos(1.1*t + 0.4), 0.3) == pytest.approx(1.1, abs=1e-9)
-    assert by_halves(np.arange(10.0), np.mean) == (4.5, 5.0)
 
 
 def test_two_steps_are_equations_40_and_41():

@@ -78,11 +78,6 @@ def test_places_outside_of_all_points_have_their_neighbours():
     assert length.min() == 0 < length.max()
 
 
-def test_one_point_and_points_in_one_place():
-    assert listed(np.zeros(1), np.zeros(1), 1.0) == [set()]
-    assert listed(np.ones(3), np.ones(3), 1.0) == [{1, 2}, {0, 2}, {0, 1}]
-
-
 def test_collapsed_particles_are_an_error():
     x, y = np.random.default_rng(7).uniform(-0.01, 0.01, (2, 2500))
     with pytest.raises(FloatingPointError, match="neighbours within 1 of each particle: they have collapsed"):

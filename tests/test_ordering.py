@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from continuum.exact.vortex import DECAYS, Vortex, solved
 from particles.integral.edge_makers import MAKERS, plain, renormalised
 from particles.integral.interpolants import W
 from particles.integral.points import lattice, of_positions, wrapped
@@ -15,7 +14,6 @@ from studies.ordering.runs import (
     VortexDecay,
     between_images,
     convection,
-    decayed,
     form_errors,
     wave_errors,
 )
@@ -70,16 +68,6 @@ def test_forms_of_the_gradient_differ_by_what_they_make_of_a_constant():
 def vortex(maker, h, disorder, wavelength):
     return row_of(VortexDecay(make=MAKERS[maker], h=h, disorder=DISORDERS[disorder], wavelength=wavelength,
                               mach=0.3))
-
-
-@pytest.mark.parametrize("wavelength", [12, 16])
-def test_a_vortex_on_a_lattice_decays_as_the_symbol_of_its_nearest_neighbours_says(wavelength):
-    """Nearest neighbours take 2 (1 - cos k) for k^2; 3 %: what Mach 0.1 compresses is 2 % of that."""
-    at, k = lattice((wavelength, wavelength)), 2*np.pi/wavelength
-    vortex = Vortex(0.1, wavelength)
-    end, _ = decayed(vortex, at, renormalised(at, Lucy.of(h=1.2)))
-    decay = np.log((vortex.velocity(at.x)**2).sum()/(end**2).sum()/vortex.speed**2)/(2*DECAYS)
-    assert decay/solved(0.1).decay - 1 == pytest.approx(2*(1 - np.cos(k))/k**2 - 1, rel=0.03)
 
 
 def test_triangles_stay_where_the_bracket_of_weights_diverges():
