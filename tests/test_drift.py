@@ -99,15 +99,16 @@ def test_equation_50_is_that_of_the_slow_twin(bracket):
 
 
 @pytest.mark.parametrize("mended", [False, True])
-@pytest.mark.parametrize("law", [LAW, ConstNu(0.3, 0.2)], ids=["const-eta", "const-nu"])
-def test_literal_points_between_plates_are_fixed_ones_that_are_moved(law, mended):
+@pytest.mark.parametrize(("law", "eos"), [
+    (LAW, IdealGas()), (ConstNu(0.3, 0.2), IdealGas()), (PowerLaw(0.3, 0.2, 0.5, 1.0), VanDerWaals())])
+def test_literal_points_between_plates_are_fixed_ones_that_are_moved(law, eos, mended):
     """Under gravity, with mirror images: `layer` on the edges that the points have at this moment."""
     x, weight = inner(AT.x), WendlandC2.of(h=2.9)
     edges, beyond = between_plates(plain, x, COLUMNS, ROWS, weight)
     scaled, images = (replace(q, S=SCALE*q.S, k=SCALE*q.k) for q in (edges, beyond))
-    fixed = Layer(x=x, edges=scaled, beyond=images, eos=IdealGas(), law=law, T_plates=(1.5, 0.5), g=0.02,
+    fixed = Layer(x=x, edges=scaled, beyond=images, eos=eos, law=law, T_plates=(1.5, 0.5), g=0.02,
                   transport=MENDED if mended else PRINTED, form=LayerSums)
-    method = drift(inside=True, law=law, transport=fixed.transport)
+    method = drift(inside=True, eos=eos, law=law, transport=fixed.transport)
     state = method.state(x, *random_fields(AT.n))
     expected = np.zeros((4, len(x)))
     fixed.start(len(x), Threads(1)).rates(state[[4, 2, 3, 5]], expected)
