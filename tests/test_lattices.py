@@ -12,7 +12,7 @@ from particles.threads import Threads
 from particles.weights import Lucy, Monaghan, WendlandC2
 from studies.build.spam import at_rest, fluid
 from studies.lattices.claims import NO_PRESSURE, SPINODAL
-from studies.lattices.crystals import LATTICES, Crystal, LatticeGrowth, Speed, growth, sums
+from studies.lattices.crystals import LATTICES, Crystal, LatticeGrowth, Speed, sums
 from studies.lattices.frozen_flow import criteria, neighbours
 from studies.lattices.molecules import METHODS, RHO_SQUARED, Molecules, Reversal, as_fluid, whole_crowd
 
@@ -67,12 +67,6 @@ def test_a_motion_that_grows_does_so_at_its_rate():
     row = rows(LatticeGrowth(crystal=crystal), "growth")[0]
     assert row["predicted"] > 0.3 and row["measured"] == pytest.approx(row["predicted"], rel=1e-3)
     assert replace(crystal, h=2.2).motion.rate < 0
-
-
-def test_rates_are_read_where_motions_are_small():
-    t = np.linspace(0, 100, 400)
-    found = growth(t, np.minimum(1e-17 + 1e-18*np.exp(2*0.3*t), 1e-3))
-    assert found.value == pytest.approx(0.3, rel=1e-5)
 
 
 def test_van_der_waals_limits_by_hand():

@@ -198,12 +198,3 @@ def test_eigenvalues_and_time_steps_give_one_growth():
     steps = ceil(1/rate/(0.5*limit_of(method, state)))
     last = run(method, state + mode, Plan(dt=1/rate/steps, steps=steps)).state
     np.testing.assert_allclose(last - state, np.e*mode, rtol=0, atol=1e-3*np.abs(mode).max())
-
-
-def test_the_derivative_is_one():
-    method, state = at_rest()
-    sums = method.start(state.shape[1], Threads(1))
-    change = np.random.default_rng(1).normal(size=state.shape)*1e-4
-    product = (jacobian(sums, state)@change.ravel()).reshape(state.shape)
-    error = np.abs(linear(sums, state, change) - product).max()
-    assert error < 1e-6*np.abs(product).max()     # third order of 1e-4
