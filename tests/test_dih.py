@@ -1,7 +1,7 @@
 """Integral hydrodynamics on fixed points: conservation, invariance, operators, heating."""
 import numpy as np
 import pytest
-from crowd import random_fields
+from crowd import random_fields, rates
 
 from continuum.fluid import ConstEta, ConstNu, IdealGas, PowerLaw, bulk_viscosity
 from particles.integral.dih import Dih, NestedFluxes, Pairwise
@@ -20,12 +20,6 @@ def fluid(maker="renormalised", d=2, size=0.2, transport="pairwise", counts=None
     edges = MAKERS[maker](at, WendlandC2.of(h=h if d < 3 else 2.2, d=d))
     settings = {"eos": IdealGas(), "law": ConstEta(0.3, 0.4), **more}
     return Dih(edges=edges, transport=TRANSPORT[transport], **settings), at
-
-
-def rates(dih, state):
-    out = np.empty_like(state)
-    dih.rates(state, out)
-    return out
 
 
 @pytest.mark.parametrize("transport", TRANSPORT)

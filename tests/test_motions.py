@@ -1,7 +1,7 @@
 """Motions of points: conservation, the identity of Eqs 46-48 with 49, speeds against lattice sums, steps."""
 import numpy as np
 import pytest
-from crowd import random_fields
+from crowd import random_fields, rates
 
 from continuum.fluid import ConstEta
 from particles.integral.dih import NestedFluxes, Pairwise
@@ -30,12 +30,6 @@ def made(kind, d=2, size=0.15, weight=WendlandC2, transport="pairwise", eta=0.2,
 
 def crowd(method, at):
     return method.state(at.x, *random_fields(at.n, at.d))
-
-
-def rates(method, state):
-    out = np.full_like(state, np.nan)
-    method.rates(state, out)
-    return out
 
 
 def after(method, state, steps, dt, integrator=RK4):
