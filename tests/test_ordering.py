@@ -76,13 +76,10 @@ def test_triangles_stay_where_the_bracket_of_weights_diverges():
     assert kept["velocity"] < 0.15 and kept["exchanges"] > 0
 
 
-def refused_between_images():
-    return convection("jittered-0.3", between_images("jittered-0.3", "exact", 2.0)._replace(make=refused), 8)
-
-
 @pytest.mark.parametrize(("case", "columns"), [
     *((kind(make=refused, h=3.0, disorder=DISORDERS["random"], wavelength=8), [column])
       for kind, column in ((OperatorErrors, "gradient"), (VortexDecay, "velocity"))),
-    (refused_between_images(), ["ke", "exchanges"])])
+    (convection("jittered-0.3", between_images("jittered-0.3", "exact", 2.0)._replace(make=refused), 8),
+     ["ke", "exchanges"])])
 def test_points_without_such_edges_leave_a_row_without_numbers(case, columns, tmp_path):
     assert np.isnan([row_of(case, tmp_path)[column] for column in columns]).all()
