@@ -6,7 +6,7 @@ import crowd
 import numpy as np
 import pytest
 from crowd import prepare, random_fields
-from scenes import between_circles, turning
+from scenes import turning
 
 from continuum.fluid import ConstEta, ConstNu, IdealGas, PowerLaw, VanDerWaals
 from particles.integral.bodies import held, together
@@ -151,7 +151,6 @@ AT = lattice((10, 12))
     (lambda: held(np.array([1]), T=-1.0), "T = -1, which must be positive"),
     (lambda: in_disc(AT, 4.5), r"radius 4\.5 in a box"),
     (lambda: with_surface((10, 12), 0.3), r"radius 0\.3"),
-    (lambda: between_circles((10, 12), 2.0, 3.5), r"radius 2 and 3\.5 are too near"),
     (lambda: stream(chi=-0.1), r"chi must not be negative, got -0\.1"),
     (lambda: stream().start(5, Threads(1)), "a state of 5 points")])
 def test_bad_bodies_are_refused(make, words):

@@ -1,7 +1,7 @@
 """The study conservation: what changes are divided by, what runs keep, what controls lose."""
-
 import numpy as np
 import pytest
+from scenes import rows_of
 
 import studies.conservation.cases as conservation
 from continuum.fluid import IdealGas
@@ -13,7 +13,7 @@ from studies.conservation.sums import Unsymmetric, random_fields, sizes
 
 
 def row(case, table="drift"):
-    return case.run(lambda done: None, None).rows[table][0]
+    return rows_of(case, table)[0]
 
 
 def largest(columns):

@@ -1,6 +1,7 @@
 """Limits of the time step: the search finds what is known, eigenvalues and trials agree."""
 import numpy as np
 import pytest
+from scenes import rows_of
 
 from studies.build.unguarded import bisected
 from studies.hardcases.cases import AT_REST
@@ -24,6 +25,6 @@ def test_bisection_finds_a_limit_from_either_side_and_says_so_when_there_is_none
 def test_trial_eigenvalues_and_formula_agree(method, eta):
     trial, variant = AT_REST[method]
     case = Limit(method=method, trial=trial, variant=variant, scene="any", eta=eta, k=eta)
-    [row] = case.run(lambda done: None, None).rows["limits"]
+    [row] = rows_of(case, "limits")
     assert abs(row["measured"] - row["exact"]) < row["measured_err"] + 0.01*row["exact"]
     assert 0.95 < row["measured"]/row["predicted"] < 1.1      # ten points lack the wave that limits most: 1 %

@@ -3,6 +3,7 @@ from math import ceil
 
 import numpy as np
 import pytest
+from scenes import rows_of
 
 from continuum.fluid import ConstEta, IdealGas
 from continuum.scene import RayleighBenard
@@ -182,7 +183,7 @@ def at_rest(share=1.0):
 
 def growth(share):
     case = LayerGrowth(h=2.0, rows=8, ra=1500.0, share=share)
-    return case.run(lambda done: None, None).rows["nested_growth"][0]["growth"]
+    return rows_of(case, "nested_growth")[0]["growth"]
 
 
 def test_eigenvalues_and_time_steps_give_one_growth():

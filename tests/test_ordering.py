@@ -1,5 +1,4 @@
 """The study ordering: waves on lattices, vortices and layers as cases, points without edges."""
-
 import numpy as np
 import pytest
 

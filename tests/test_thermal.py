@@ -24,8 +24,7 @@ from studies.noise.partners import noise, transport
 def gas(share: float = 0.1, k: float = 1e-3, **more) -> Thermal:
     edges = MAKERS["delaunay"](jittered((5, 5), 0.2, 1), None)
     return Thermal(**{"edges": edges, "eos": IdealGas(), "law": ConstEta(0.3, 0.4), "zeta": 0.1, "k": k,
-                      "seed": 7,
-                      "share": share, **more})
+                      "seed": 7, "share": share, **more})
 
 
 def rest(method: Thermal) -> np.ndarray:

@@ -4,6 +4,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from crowd import rates
+from scenes import rows_of
 
 from continuum.exact.shear import couette, poiseuille
 from continuum.exact.waves import QUANTITIES, LinearGas, continuum, quantities
@@ -26,7 +27,7 @@ TOLD = ("viscosity", "bulk viscosity", "conductivity", "sound speed")
 def decay(transport, make=renormalised, disorder="lattice", counts=(12, 8)):
     """Rows by quantity."""
     case = Decay(transport=transport, make=make, disorder=DISORDERS[disorder], counts=counts, h=2.0, zeta=0.2)
-    return {row["quantity"]: row for row in case.run(lambda done: None, None).rows["waves"]}
+    return {row["quantity"]: row for row in rows_of(case, "waves")}
 
 
 def test_continuum_of_long_waves_has_the_coefficients_put_in():
