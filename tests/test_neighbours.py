@@ -56,17 +56,6 @@ def test_lists_equal_those_of_a_tree_for_any_points(points, reach):
     assert listed(x, y, reach) == within(x, y, reach)
 
 
-@pytest.mark.parametrize("threads", [2, 3])
-def test_order_of_the_lists_does_not_depend_on_threads(threads):
-    x, y = clustered(2, 500)
-    cells = sort_into_cells(x, y, 1.0)
-
-    def rows(count):
-        start, length, near = make_lists(Threads(count), cells, x, y, 2.0, 0)
-        return [near[int(s):int(s) + n].tolist() for s, n in zip(start, length)]
-    assert rows(threads) == rows(1)
-
-
 def test_places_outside_of_all_points_have_their_neighbours():
     # fields are evaluated on grids that may reach beyond the particles, which may even have left a void
     x, y = scattered(4, 200)
