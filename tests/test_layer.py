@@ -45,7 +45,6 @@ MADE = [(renormalised, 0.0, 2.0), (exact, 0.2, 2.8), (delaunay, 0.2, 2.0)]
 TRANSPORT = {"pairwise": (MENDED, Pairwise()), "unmended": (PRINTED, Pairwise(mended=False)),
              "nested": (mixed(0.0), NestedFluxes()), "mixed": (mixed(0.3), Mixed(share=0.3))}
 
-
 fluids = pytest.mark.parametrize(("transport", "law", "eos"), [
     ("pairwise", ConstEta, IdealGas()), ("pairwise", ConstEta, VanDerWaals()),
     ("pairwise", ConstNu, IdealGas()), ("pairwise", PowerLaw, VanDerWaals()),
