@@ -67,8 +67,10 @@ def refuses_bad_starts(method, make, wrong) -> None:
 
 
 def prepare(method, state: np.ndarray, threads: int = 1):
-    """The method's sums with lists, the state in the order of their cells, and which particle is where."""
-    state, ids, sums = state.copy(), np.arange(state.shape[1]), method.start(state.shape[1], Threads(threads))
+    """The method's sums with lists, or itself where it needs none, the state in the order of their cells, and
+    which particle is where."""
+    n, alone = state.shape[1], not hasattr(method, "start")
+    state, ids, sums = state.copy(), np.arange(n), method if alone else method.start(n, Threads(threads))
     if hasattr(sums, "around"):
         sums.around.relist(state, ids, 0.0)
     return sums, state, ids
@@ -83,7 +85,7 @@ def jacobian(f, x: np.ndarray, step: float) -> np.ndarray:
 def rates(method, state: np.ndarray, threads: int = 1) -> np.ndarray:
     """d(state)/dt in the order of the state."""
     sums, ordered, ids = prepare(method, state, threads)
-    out = np.empty_like(ordered)
+    out = np.full_like(ordered, np.nan)
     sums.rates(ordered, out)
     return out[:, np.argsort(ids)]
 

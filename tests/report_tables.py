@@ -23,11 +23,9 @@ def errors() -> pd.DataFrame:
                                                     ("spam", "printed", "Kp", 0.3 - 0.01*n, 1e-2*n**3),
                                                     ("dih", "fixed-lattice", "Kp", 12/n**2, 1e-3*n**3)):
             rows.append({"method": method, "variant": variant, **LAYER, "ra": 1e4, "resolution": n,
-                         "energy": energy,
-                         "particles": 2*n**2, "ke": 0.005*(1 + error), "ke_err": 5e-7, "reference": 0.005,
-                         "reference_err": 0.0,
-                         "error": error, "error_err": 1e-4, "cpu_s": cpu, "size": "fine",
-                         "commit": "abc1234567"})
+                         "energy": energy, "particles": 2*n**2, "ke": 0.005*(1 + error), "ke_err": 5e-7,
+                         "reference": 0.005, "reference_err": 0.0, "error": error, "error_err": 1e-4,
+                         "cpu_s": cpu, "size": "fine", "commit": "abc1234567"})
     return pd.DataFrame(rows)
 
 
@@ -36,8 +34,7 @@ def claims() -> pd.DataFrame:
              "rb"),
             ("toy-two", "RR98 Eq. 42", "two is one", "paper", "1", 2.0, 0.0, 0.9, 1.1, "fails", "why", "rb"),
             ("toy-three", "RR98 Eq. 42", "three <b>& more", "own", "", math.nan, math.nan, math.nan, math.nan,
-             "undecidable",
-             "not run", "rb")]
+             "undecidable", "not run", "rb")]
     return pd.DataFrame(rows, columns=[name for name in COLUMNS[:-4] if name != "fixed"]).assign(
         fixed="before", formula="one(y) in rows", equation="", headline="", evidence="")
 

@@ -6,7 +6,7 @@ from particles.integral.bodies import Held, held
 from particles.integral.points import Points, lattice, of_positions
 from particles.smooth.spam import Spam
 from studies.build.spam import PRINTED, Variant, method, start
-from studies.conservation.discs import CLEAR, check_disc, on_circle
+from studies.conservation.discs import CLEAR, on_circle
 
 ROWS = 8
 
@@ -18,6 +18,11 @@ def small(variant: Variant = PRINTED, ra: float = 5000.0, rows: int = ROWS, **sc
     return method(where, variant), start(where, 1)
 
 
+def rows_of(case, table: str) -> list[dict]:
+    """Rows of a case that is run here."""
+    return case.run(lambda done: None, None).rows[table]
+
+
 def turning(points: Points, which: np.ndarray, rate: float, T: float = np.nan) -> Held:
     """Points that turn rigidly about the middle of the box, counterclockwise."""
     x, y = points.x[which].T
@@ -26,13 +31,8 @@ def turning(points: Points, which: np.ndarray, rate: float, T: float = np.nan) -
 
 def between_circles(counts: tuple[int, int], inner: float,
                     outer: float) -> tuple[Points, np.ndarray, np.ndarray]:
-    """A lattice of spacing 1 with points on two circles; points up to the inner, and from the outer. Raises
-    ValueError: there is no room between the circles, or between one of them and its image."""
+    """A lattice of spacing 1 with points on two circles; points up to the inner, and from the outer."""
     at = lattice(counts)
-    check_disc(at, inner)
-    check_disc(at, outer)
-    if outer - inner < 2:
-        raise ValueError(f"circles of radius {inner:g} and {outer:g} are too near: take more points")
     r = np.hypot(*at.x.T)
     off = (np.abs(r - inner) > CLEAR) & (np.abs(r - outer) > CLEAR)
     points = of_positions(np.concatenate([on_circle(inner), on_circle(outer), at.x[off]]), at.box)

@@ -159,17 +159,6 @@ def test_means_over_seeds():
 X, Y = np.array([1.0, 2.0, 4.0, 7.0]), np.array([1.1, 1.9, 4.2, 6.8])
 
 
-def test_a_line_has_the_errors_of_the_textbook():
-    fit, n, about = fits.line(X, Y), len(X), X - X.mean()
-    slope = (about@Y)/(about@about)
-    s2 = np.sum((Y - Y.mean() - slope*about)**2)/(n - 2)
-    t = stdtrit(n - 2, 0.975)
-    assert fit.slope == almost(slope, t*math.sqrt(s2/(about@about)))
-    for x, value in ((0.0, fit.intercept), (5.0, fit.at(5.0))):
-        off = x - X.mean()
-        assert value == almost(Y.mean() + slope*off, t*math.sqrt(s2*(1/n + off**2/(about@about))))
-
-
 def test_errors_of_values_add_to_the_scatter():
     err, about = np.array([0.1, 0.2, 0.3, 0.4]), X - X.mean()
     own = math.sqrt(np.sum((about*err)**2))/(about@about)
@@ -186,9 +175,11 @@ def test_weights_and_parabolas_are_those_of_polyfit(degree):
     found, cov = np.polyfit(X, Y, degree, w=weight, cov=True)
     fit = fits.polynomial(X, Y, degree, weight=weight)
     assert fit.coefficients == pytest.approx(found[::-1])
-    t = stdtrit(len(X) - degree - 1, 0.975)
+    t, at = stdtrit(len(X) - degree - 1, 0.975), 5.0**np.arange(degree, -1, -1)
     assert fit.intercept.err == pytest.approx(t*math.sqrt(cov[-1, -1]))
     assert fit.slope.err == pytest.approx(t*math.sqrt(cov[-2, -2]))
+    assert fit.at(5.0) == pytest.approx((at@found, t*math.sqrt(at@cov@at)))
+    assert degree > 1 or fits.line(X, Y, weight=weight).slope == fit.slope
 
 
 def test_fits_of_too_few_values_cannot_be_told():

@@ -1,32 +1,19 @@
 """Flows past held points and between sliding sides: drag, a wave, each beside its exact value."""
-from math import log, pi
 
 import numpy as np
-import pytest
+from scenes import rows_of
 
-from continuum.published import published
 from studies.conservation.slow_flows import VARIANTS, CylinderDrag, TurningWave
 
 
-def row(case, table):
-    return case.run(lambda done: None, None).rows[table][0]
-
-
-def test_published_drags_are_those_of_the_series_where_it_is_good():
-    s = [published(f"cylinders-series-{n}").value for n in range(4)]
-    for c, good in ((0.05, 4e-4), (0.1, 8e-4), (0.2, 0.016), (0.3, 0.13)):      # as its note says
-        series = 4*pi/(s[0] + s[1]*c + s[2]*c**2 + s[3]*c**3 - log(c)/2)
-        assert series == pytest.approx(published(f"cylinders-drag-{c:g}").value, rel=good)
-
-
 def test_points_on_the_surface_have_the_drag_and_a_staircase_has_less():
-    surface, frozen = (row(CylinderDrag(variant=VARIANTS[name], fraction=0.1, rows=16), "drag")["error"]
-                       for name in ("surface", "frozen"))
+    drags = (CylinderDrag(variant=VARIANTS[name], fraction=0.1, rows=16) for name in ("surface", "frozen"))
+    surface, frozen = (rows_of(drag, "drag")[0]["error"] for drag in drags)
     assert abs(surface) < 0.03      # second order: 0.2 % at 48 rows is 2 % at 16
     assert frozen < -0.05           # a staircase inside of the circle
 
 
 def test_a_sliding_wave_is_of_second_order():
-    errors = [row(TurningWave(rows=rows), "wave")["error"] for rows in (12, 16, 24)]
+    errors = [rows_of(TurningWave(rows=rows), "wave")[0]["error"] for rows in (12, 16, 24)]
     orders = -np.diff(np.log(errors))/np.diff(np.log([12, 16, 24]))
     assert np.all(np.abs(orders - 2) < 0.3)     # at 12 rows the next order is a fifth of the error

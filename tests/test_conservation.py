@@ -1,22 +1,19 @@
 """The study conservation: what changes are divided by, what runs keep, what controls lose."""
-
 import numpy as np
 import pytest
+from scenes import rows_of
 
 import studies.conservation.cases as conservation
 from continuum.fluid import IdealGas
 from particles.fields import Fields
-from particles.integral.dih import NestedFluxes
 from particles.integral.points import lattice
 from particles.weights import Monaghan
 from studies.conservation.drift import MODES, PLATES, MovingDrift
 from studies.conservation.sums import Unsymmetric, random_fields, sizes
 
-PRINTED = NestedFluxes(differences=False)
-
 
 def row(case, table="drift"):
-    return case.run(lambda done: None, None).rows[table][0]
+    return rows_of(case, table)[0]
 
 
 def largest(columns):

@@ -44,9 +44,6 @@ def test_the_interval_of_a_crossing_is_that_of_errors_in_all_four_numbers(level)
     assert np.linalg.norm(shifts) == pytest.approx(half, rel=1e-3)
 
 
-# --- the figure of errors -----------------------------------------------------------------------------------
-
-
 def test_all_cases_together_take_what_was_planned_alone_on_the_machine():
     seconds = [case.cost for case in cases.cases("paper")]
     assert sum(seconds) < cases.TOGETHER and max(seconds) < cases.DEAREST

@@ -11,9 +11,8 @@ from studies.cost.derive import growth_laws
 from studies.cost.problem import HALVINGS, STRETCH, STRETCHES, WORTH, Problem, Result, best, climb, rms
 from studies.cost.race import Race, SolverRace
 from studies.cost.rolls import END, LATE, OFTEN, SETTLED, Followed, HeatedLayer
-from studies.cost.seconds import Flock, TwoThreads, median, per_step
+from studies.cost.seconds import Flock, TwoThreads, per_step
 from studies.cost.tables import GRID, LATTICE, MAC, NEAREST, PYPDE, WIDE
-from studies.kit.timing import SPREAD_TO_ERR
 
 COLUMNS = {table.name: table.columns for table in tables.TABLES}
 
@@ -114,10 +113,6 @@ def test_seconds_of_a_step_leave_out_what_every_run_pays_once():
     assert abs(step.value - 0.01) < 2*step.err
 
 
-def test_a_time_is_the_median_of_its_repeats_and_its_error_half_of_their_quartiles():
-    assert median([1, 2, 9, 4, 5, 8, 6]) == (5, pytest.approx(SPREAD_TO_ERR*(7 - 3)/2))     # 1 2 4 5 6 8 9
-
-
 def test_one_and_two_threads_take_turns_and_give_what_the_speed_up_reads(monkeypatch):
     order = []
 
@@ -151,11 +146,6 @@ def test_errors_in_a_slow_vortex_are_those_of_friction(kind, name, share):
     assert velocity == pytest.approx(share*(2*np.pi/16)**2, rel=0.02)
     row, = rows["runs"]
     assert set(row) == set(COLUMNS["runs"]) and row["run_s"] > 0 and row["setup_s"] > 0
-
-
-def test_a_lattice_carries_sound_with_second_order_error():
-    coarse, fine = (rows_of(Race, "sound", NEAREST, length)[1] for length in (32, 64))
-    assert coarse/fine == pytest.approx(4, rel=0.15)
 
 
 @pytest.mark.parametrize("scene", ["conduction", "couette"])

@@ -5,7 +5,6 @@ import pytest
 from studies.kit.claim import Claim, judge, listed, places
 from studies.kit.sweep import RESULTS
 from studies.kit.table import Tables
-from studies.report.__main__ import main
 from studies.report.equations import Account, cells, lines, number, text
 from studies.report.inventory import NoReport, claims_of
 
@@ -103,8 +102,3 @@ def test_numbers_have_the_digits_that_are_asked_for():
     claim = pd.Series({"measured": -0.0123, "err": 0.0004}, name="c")
     forms = ("", "%", ".3f", "%.0f", ".0e")
     assert [number(claim, form) for form in forms] == ["−0.0123(4)", "−1.23(4) %", "−0.012", "−1 %", "−1e−2"]
-
-
-def test_without_claims_the_command_says_how_to_get_them(tmp_path, capsys):
-    assert main(["equations", "--out", str(tmp_path)]) == 1
-    assert "claims.csv does not exist" in capsys.readouterr().err

@@ -48,7 +48,7 @@ INSIDE = dict(zip(("edges", "beyond"), between_plates(renormalised, SQUARE.x, CO
 FIXED = {"dih": Dih(edges=EDGES, **FLUID), "layer": Layer(**INSIDE),
          "thermal": Thermal(edges=EDGES, k=1e-3, seed=1, **FLUID),
          "stream": Stream(x=SQUARE.x, edges=EDGES, held=held(np.array([0])), **FLUID),
-         "sheared": Sheared(points=SQUARE, edges=EDGES, rate=0.1, **FLUID), "driven": Driven(**INSIDE),
+         "sheared": Sheared(counts=BOX, weight=Lucy.of(h=2.0), rate=0.1, **FLUID), "driven": Driven(**INSIDE),
          "moving-delaunay": MovingDelaunay(x=SQUARE.x, rings=rings(SQUARE.x, BOX, (False, False)),
                                            held=held(np.array([0])), **FLUID)}
 MOVING = {**{f"rr98-{name}": Drift(motion=motion, **EVERYWHERE) for name, motion in DRIFTS.items()},

@@ -48,19 +48,6 @@ def test_noise_is_the_partner_of_dissipation(name, kind, d):
         assert np.abs(pair.Gamma@all_of.T).max() < 1e-12*size, what
 
 
-@pytest.mark.parametrize("d", [2, 3])
-def test_momenta_have_kT_m_whatever_the_masses_and_viscosities(d):
-    """dp = -Gamma p/m dt + B dW: <p_i p_j> = kT m_i delta_ij, less what the fixed total momentum takes."""
-    points = jittered((5, 5) if d == 2 else (3, 3, 4), 0.2, 1)
-    edges = MAKERS["delaunay"](points, None)
-    pair = partners(edges)["stress"]
-    mass = np.tile(np.random.default_rng(4).uniform(0.2, 5, edges.n), d)
-    sums = np.kron(np.eye(d), np.ones(edges.n))
-    C = covariance.steady(-pair.Gamma.toarray()/mass, pair.Q.toarray(), sums)
-    expected = KT*(np.diag(mass) - mass[:, None]*sums.T@np.linalg.solve(sums*mass@sums.T, sums*mass))
-    assert C == pytest.approx(expected, abs=1e-10*KT*mass.max())
-
-
 @pytest.mark.parametrize(("name", "kind"),
                          [("renormalised", "lattice"), ("delaunay", "random"), ("exact", "jittered")])
 @pytest.mark.parametrize("d", [2, 3])
@@ -147,9 +134,3 @@ NEGATIVE = r"of point \d+ is -0\.\d, which must not be negative"
 def test_what_has_no_noise_is_refused(d, make, given, message):
     with pytest.raises(ValueError, match=message):
         make(edges_of("delaunay", "random", d), *given)
-
-
-def test_a_share_is_a_share():
-    edges = edges_of("delaunay", "random", 2)
-    with pytest.raises(ValueError, match="between 0"):
-        fluctuating.mixed(fluctuating.heat(edges, 0.3, KT), fluctuating.conduction(edges, 0.3, KT), 1.1)

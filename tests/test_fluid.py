@@ -19,7 +19,6 @@ from continuum.fluid import (
     expansivity,
     pressure,
     pressure_slopes,
-    sound_speed,
     stress,
     stress_tensor,
     temperature,
@@ -48,14 +47,6 @@ def test_slopes_of_the_pressure(eos):
     np.testing.assert_allclose(by_rho, slope(lambda r: pressure(eos, r, e), RHO), rtol=ROUND_OFF)
     np.testing.assert_allclose(by_e*np.ones_like(e), slope(lambda u: pressure(eos, RHO, u), e),
                                rtol=ROUND_OFF)
-
-
-@every_eos
-def test_sound_speed_from_the_slopes_of_pressure(eos):
-    e = energy(eos, RHO, T)
-    P = pressure(eos, RHO, e)
-    c2 = slope(lambda r: pressure(eos, r, e), RHO) + P/RHO**2*slope(lambda u: pressure(eos, RHO, u), e)
-    np.testing.assert_allclose(sound_speed(eos, RHO, e)**2, c2, rtol=ROUND_OFF)
 
 
 @consistent

@@ -1,8 +1,8 @@
 """Limits of the time step: the search finds what is known, eigenvalues and trials agree."""
 import numpy as np
 import pytest
+from scenes import rows_of
 
-from continuum.fluid import ConstEta
 from studies.build.unguarded import bisected
 from studies.hardcases.cases import AT_REST
 from studies.hardcases.largest_step import Limit, largest_step
@@ -25,12 +25,6 @@ def test_bisection_finds_a_limit_from_either_side_and_says_so_when_there_is_none
 def test_trial_eigenvalues_and_formula_agree(method, eta):
     trial, variant = AT_REST[method]
     case = Limit(method=method, trial=trial, variant=variant, scene="any", eta=eta, k=eta)
-    [row] = case.run(lambda done: None, None).rows["limits"]
+    [row] = rows_of(case, "limits")
     assert abs(row["measured"] - row["exact"]) < row["measured_err"] + 0.01*row["exact"]
     assert 0.95 < row["measured"]/row["predicted"] < 1.1      # ten points lack the wave that limits most: 1 %
-
-
-def test_the_grid_takes_the_step_of_its_formula_without_viscosity():
-    make, continuity = AT_REST["grid"]
-    grid = make(continuity, ConstEta(0.0, 0.0))
-    assert not grid.grows(0.98*grid.predicted) and grid.grows(1.2*grid.predicted)

@@ -2,6 +2,7 @@
 import numpy as np
 import pandas as pd
 import pytest
+from scenes import rows_of
 from scipy.integrate import quad
 
 from continuum.exact.shear import growing_wave
@@ -101,8 +102,8 @@ def test_the_grid_goes_round_a_box_without_plates():
     ("alternating densities", "moving-delaunay", 0.0, 0.1),
     ("angular momentum", "fixed-lattice", 1.0, 0.01)])
 def test_numbers_that_are_known_are_what_is_asked(case, method, expected, within):
-    row, = Probe(case=case, method=method, variant=PROBED[case][method], question=PROBES[case]).run(
-        lambda done: None, None).rows["probes"]
+    probe = Probe(case=case, method=method, variant=PROBED[case][method], question=PROBES[case])
+    row, = rows_of(probe, "probes")
     assert row["measured"] == pytest.approx(expected, abs=within) and row["reached"] == 1
 
 

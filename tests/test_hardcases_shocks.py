@@ -4,7 +4,6 @@ import pytest
 
 from continuum.exact.riemann import GasState, density, middle, shock_speed, solution
 from continuum.fluid import ConstEta
-from particles.fields import Fields
 from studies.hardcases import high_ra
 from studies.hardcases.cases import IN_LAYERS, IN_TUBES, RANDOM
 from studies.hardcases.high_ra import no_report
@@ -16,7 +15,6 @@ from studies.hardcases.tubes import (
     GAMMA,
     THIN,
     Seen,
-    binned,
     centres,
     exact,
     march,
@@ -114,15 +112,6 @@ def test_nothing_happens_in_a_uniform_gas(monkeypatch):
         (_, v, P), _ = seen(method, 0.0)
         np.testing.assert_allclose(v, 0, atol=1e-9)
         np.testing.assert_allclose(P, DENSE.P, rtol=1e-9)
-
-
-def test_points_are_binned_by_volume_and_both_tubes_count():
-    def at(x, V, rho, v, T):
-        return Fields(np.array([x, x]).T, np.array([v, v]).T, np.array(rho), np.array(T), np.array(V))
-    fields = at([0.5, -0.5, 1.5], [1.0, 0.5, 0.8], [1.0, 2.0, 5.0], [0.5, -1.5, 0.5], [2.0, 3.0, 1.0])
-    np.testing.assert_allclose(binned(1, fields), [[2/1.5, 5.0], [1.0, 0.5], [5/1.5, 5.0]])
-    wide = binned(2, at([0.5, 2.5], [1.0, 3.0], [1.0, 1.0], [1.0, 2.0], [1.0, 1.0]))
-    np.testing.assert_allclose(wide[1], [1, 2, 2, 2])
 
 
 def test_wiggles_are_the_variation_beyond_the_exact_one():

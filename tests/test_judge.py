@@ -71,10 +71,6 @@ def test_dice_are_found_out(verdicts):
     assert "does not keep" in told["conservation"]
 
 
-def test_rates_that_are_not_written_are_told(verdicts):
-    assert "rates leave row 0 of out unwritten" in verdicts(strangers.Unwritten)["contract"]
-
-
 def test_a_ladder_that_is_stopped_says_so(tmp_path, capsys, monkeypatch):
     def stop(self, state, out):
         raise KeyboardInterrupt

@@ -38,8 +38,7 @@ class Clustered(Toy):
         outside = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", *THREADS)}
         environment = {**outside, **more, "DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES": "1"}
         self.processes.append(subprocess.Popen(command, cwd=cwd, stdout=log, stderr=log,
-                                               start_new_session=True,
-                                               env=environment))
+                                               start_new_session=True, env=environment))
 
     def workers(self):
         """Two workers, that nannies start again when they are killed."""

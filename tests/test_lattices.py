@@ -4,6 +4,7 @@ from dataclasses import replace
 import numpy as np
 import pandas as pd
 import pytest
+from scenes import rows_of
 
 from continuum.fluid import IdealGas, VanDerWaals, pressure
 from particles.limits import lattice_sums
@@ -12,16 +13,12 @@ from particles.threads import Threads
 from particles.weights import Lucy, Monaghan, WendlandC2
 from studies.build.spam import at_rest, fluid
 from studies.lattices.claims import NO_PRESSURE, SPINODAL
-from studies.lattices.crystals import LATTICES, Crystal, LatticeGrowth, Speed, growth, sums
+from studies.lattices.crystals import LATTICES, Crystal, LatticeGrowth, Speed, sums
 from studies.lattices.frozen_flow import criteria, neighbours
 from studies.lattices.molecules import METHODS, RHO_SQUARED, Molecules, Reversal, as_fluid, whole_crowd
 
 HEXAGONAL, SQUARE = LATTICES["hexagonal"], LATTICES["square"]
 WEIGHTS = (Lucy, Monaghan, WendlandC2)
-
-
-def rows(case, table):
-    return case.run(lambda done: None, None).rows[table]
 
 
 @pytest.mark.parametrize("weight", [Lucy, WendlandC2])
@@ -32,15 +29,6 @@ def test_sums_over_the_square_lattice_are_those_of_the_step_limit(weight):
     assert rho == pytest.approx(known.rho, rel=1e-14)
     np.testing.assert_allclose(S, known.S, atol=1e-14)
     np.testing.assert_allclose(D, known.D, atol=1e-8)       # second derivatives by differences
-
-
-@pytest.mark.parametrize(("lattice", "nearest", "far"), [(SQUARE, 4, 1.0), (HEXAGONAL, 6, 1.0745699)])
-def test_lattices_have_density_one_and_their_neighbours(lattice, nearest, far):
-    x, box = lattice.places((6, 4)), lattice.box((6, 4))
-    assert len(x)/np.prod(box) == pytest.approx(1.0, rel=1e-14)
-    assert (np.abs(x) <= np.array(box)/2).all()
-    r = np.hypot(*lattice.neighbours(1.2).T)
-    assert len(r) == nearest and r == pytest.approx(far, rel=1e-7)
 
 
 @pytest.mark.parametrize("eos", [IdealGas(), VanDerWaals()])
@@ -64,15 +52,9 @@ def test_least_stable_motion_is_pushed_as_its_eigenvalue_says(weight, eos):
 
 def test_a_motion_that_grows_does_so_at_its_rate():
     crystal = Crystal(lattice=HEXAGONAL, cells=(8, 5), weight=Monaghan, h=2.8, eos=IdealGas())
-    row = rows(LatticeGrowth(crystal=crystal), "growth")[0]
+    row = rows_of(LatticeGrowth(crystal=crystal), "growth")[0]
     assert row["predicted"] > 0.3 and row["measured"] == pytest.approx(row["predicted"], rel=1e-3)
     assert replace(crystal, h=2.2).motion.rate < 0
-
-
-def test_rates_are_read_where_motions_are_small():
-    t = np.linspace(0, 100, 400)
-    found = growth(t, np.minimum(1e-17 + 1e-18*np.exp(2*0.3*t), 1e-3))
-    assert found.value == pytest.approx(0.3, rel=1e-5)
 
 
 def test_van_der_waals_limits_by_hand():
@@ -122,8 +104,8 @@ def test_pressure_of_the_square_of_the_density_makes_molecules(weight):
 
 
 def test_paths_come_back_as_their_steps_let_them():
-    found = {name: rows(Reversal(name=name, integrator=integrator, weight=Lucy, times=(3.0,), side=8),
-                        "reversal")[0]
+    found = {name: rows_of(Reversal(name=name, integrator=integrator, weight=Lucy, times=(3.0,), side=8),
+                           "reversal")[0]
              for name, integrator in METHODS.items()}
     assert found["whole numbers"]["equal"] == 1 and found["whole numbers"]["apart"] == 0
     assert 0 < found["leapfrog"]["apart"] < 1e-13 and found["leapfrog"]["equal"] < 1
@@ -140,5 +122,5 @@ def test_long_sound_has_the_speed_that_its_frequency_says(weight):
     known = lattice_sums(weight.of(h=3.0), 1.0, 1.0, np.array([[k, 0.0]]))
     # an ideal gas at T = 1: c^2 = 2 P/rho, so that only D is left
     omega2 = 2/known.rho*known.D[0, 0, 0]
-    speed = rows(Speed(lattice=SQUARE, weight=weight), "sound_speeds")[0]["speed"]
+    speed = rows_of(Speed(lattice=SQUARE, weight=weight), "sound_speeds")[0]["speed"]
     assert speed == pytest.approx(np.sqrt(omega2)/k/np.sqrt(2), rel=2e-3)

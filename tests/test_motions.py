@@ -1,7 +1,7 @@
 """Motions of points: conservation, the identity of Eqs 46-48 with 49, speeds against lattice sums, steps."""
 import numpy as np
 import pytest
-from crowd import random_fields
+from crowd import random_fields, rates
 
 from continuum.fluid import ConstEta
 from particles.integral.dih import NestedFluxes, Pairwise
@@ -16,7 +16,7 @@ from particles.integral.rr98_moving_plain import (
 )
 from particles.integrators import RK4, Euler, TwoStep
 from particles.weights import Lucy, WendlandC2
-from studies.conservation.motions import MovingSound, Pattern, by_halves, frequency, march, moving, seen
+from studies.conservation.motions import MovingSound, Pattern, march, moving, seen
 
 COUNTS = {1: (14,), 2: (7, 8), 3: (5, 5, 5)}
 TRANSPORT = {"nested": NestedFluxes(), "pairwise": Pairwise(mended=False), "mended": Pairwise()}
@@ -30,12 +30,6 @@ def made(kind, d=2, size=0.15, weight=WendlandC2, transport="pairwise", eta=0.2,
 
 def crowd(method, at):
     return method.state(at.x, *random_fields(at.n, at.d))
-
-
-def rates(method, state):
-    out = np.full_like(state, np.nan)
-    method.rates(state, out)
-    return out
 
 
 def after(method, state, steps, dt, integrator=RK4):
@@ -128,12 +122,6 @@ def test_sound_on_moving_points_goes_at_predicted_speeds(motion, tmp_path):
     [row] = case.run(lambda done: None, tmp_path).rows["moving_sound"]
     # of the square of the amplitude, 1e-8, over the change of c that resonance of its double can make
     assert row["speed"] == pytest.approx(row["predicted"], rel=1e-3)
-
-
-def test_the_frequency_of_a_wave_that_decays():
-    t = np.arange(40)*0.3
-    assert frequency(np.exp(-0.02*t)*np.cos(1.1*t + 0.4), 0.3) == pytest.approx(1.1, abs=1e-9)
-    assert by_halves(np.arange(10.0), np.mean) == (4.5, 5.0)
 
 
 def test_two_steps_are_equations_40_and_41():

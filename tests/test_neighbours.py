@@ -56,17 +56,6 @@ def test_lists_equal_those_of_a_tree_for_any_points(points, reach):
     assert listed(x, y, reach) == within(x, y, reach)
 
 
-@pytest.mark.parametrize("threads", [2, 3])
-def test_order_of_the_lists_does_not_depend_on_threads(threads):
-    x, y = clustered(2, 500)
-    cells = sort_into_cells(x, y, 1.0)
-
-    def rows(count):
-        start, length, near = make_lists(Threads(count), cells, x, y, 2.0, 0)
-        return [near[int(s):int(s) + n].tolist() for s, n in zip(start, length)]
-    assert rows(threads) == rows(1)
-
-
 def test_places_outside_of_all_points_have_their_neighbours():
     # fields are evaluated on grids that may reach beyond the particles, which may even have left a void
     x, y = scattered(4, 200)
@@ -76,11 +65,6 @@ def test_places_outside_of_all_points_have_their_neighbours():
         d2 = (x - at[0, i])**2 + (y - at[1, i])**2
         assert sorted(near[int(start[i]):int(start[i]) + length[i]]) == np.flatnonzero(d2 < 9).tolist()
     assert length.min() == 0 < length.max()
-
-
-def test_one_point_and_points_in_one_place():
-    assert listed(np.zeros(1), np.zeros(1), 1.0) == [set()]
-    assert listed(np.ones(3), np.ones(3), 1.0) == [{1, 2}, {0, 2}, {0, 1}]
 
 
 def test_collapsed_particles_are_an_error():

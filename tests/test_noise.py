@@ -14,7 +14,6 @@ from particles.noise import (
     words_of_pair,
     words_of_point,
 )
-from particles.threads import Threads
 
 u64 = np.uint64
 #: counter, key, answer: kat_vectors of the library of Salmon et al. 2011; the third are digits of pi
@@ -102,13 +101,6 @@ def test_neighbouring_counters_are_independent(lag):
         assert abs(np.mean((a**2 - 1)*(b**2 - 1))) < 2*limit     # the squares have variance 2
     u = uniforms()
     assert abs(np.mean(u[lag:]*u[:-lag])) < SIGMAS/np.sqrt(u.size)
-
-
-@pytest.mark.parametrize("threads", [2, 3])
-def test_threads_do_not_matter(threads):
-    out = np.empty((1000, 3))
-    Threads(threads)(fill_normals, 1000, 11, 12, out)
-    assert np.array_equal(out, normals(11, 12, (1000, 3)))
 
 
 @pytest.mark.parametrize("seed", [-1, 2**64, 1.5, "one", True])

@@ -1,9 +1,7 @@
 """The study ordering: waves on lattices, vortices and layers as cases, points without edges."""
-
 import numpy as np
 import pytest
 
-from continuum.exact.vortex import DECAYS, Vortex, solved
 from particles.integral.edge_makers import MAKERS, plain, renormalised
 from particles.integral.interpolants import W
 from particles.integral.points import lattice, of_positions, wrapped
@@ -15,7 +13,6 @@ from studies.ordering.runs import (
     VortexDecay,
     between_images,
     convection,
-    decayed,
     form_errors,
     wave_errors,
 )
@@ -72,29 +69,16 @@ def vortex(maker, h, disorder, wavelength):
                               mach=0.3))
 
 
-@pytest.mark.parametrize("wavelength", [12, 16])
-def test_a_vortex_on_a_lattice_decays_as_the_symbol_of_its_nearest_neighbours_says(wavelength):
-    """Nearest neighbours take 2 (1 - cos k) for k^2; 3 %: what Mach 0.1 compresses is 2 % of that."""
-    at, k = lattice((wavelength, wavelength)), 2*np.pi/wavelength
-    vortex = Vortex(0.1, wavelength)
-    end, _ = decayed(vortex, at, renormalised(at, Lucy.of(h=1.2)))
-    decay = np.log((vortex.velocity(at.x)**2).sum()/(end**2).sum()/vortex.speed**2)/(2*DECAYS)
-    assert decay/solved(0.1).decay - 1 == pytest.approx(2*(1 - np.cos(k))/k**2 - 1, rel=0.03)
-
-
 def test_triangles_stay_where_the_bracket_of_weights_diverges():
     lost, kept = vortex("plain", 3.0, "random", 16), vortex("delaunay", 0.0, "random", 16)
     assert np.isnan([lost["velocity"], lost["exchanges"]]).all()
     assert kept["velocity"] < 0.15 and kept["exchanges"] > 0
 
 
-@pytest.mark.parametrize(("kind", "column"), [(OperatorErrors, "gradient"), (VortexDecay, "velocity")])
-def test_points_without_such_edges_leave_a_row_without_numbers(kind, column):
-    row = row_of(kind(make=refused, h=3.0, disorder=DISORDERS["random"], wavelength=8))
-    assert np.isnan(row[column]) and row["maker"] == "refused"
-
-
-def test_points_without_exact_edges_leave_a_row_and_others_must_exist(tmp_path, monkeypatch):
-    case = convection("jittered-0.3", between_images("jittered-0.3", "exact", 2.0)._replace(make=refused), 8)
-    row = row_of(case, tmp_path)
-    assert np.isnan([row["ke"], row["exchanges"]]).all() and row["rolls"] == 0
+@pytest.mark.parametrize(("case", "columns"), [
+    *((kind(make=refused, h=3.0, disorder=DISORDERS["random"], wavelength=8), [column])
+      for kind, column in ((OperatorErrors, "gradient"), (VortexDecay, "velocity"))),
+    (convection("jittered-0.3", between_images("jittered-0.3", "exact", 2.0)._replace(make=refused), 8),
+     ["ke", "exchanges"])])
+def test_points_without_such_edges_leave_a_row_without_numbers(case, columns, tmp_path):
+    assert np.isnan([row_of(case, tmp_path)[column] for column in columns]).all()

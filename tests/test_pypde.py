@@ -1,19 +1,18 @@
-"""The gas in py-pde: rates, compiled, readable and exact; stability; steady states, those of another grid."""
+"""The gas in py-pde: rates, compiled and exact; stability; steady states, those of another grid."""
 from functools import partial
-from itertools import cycle, pairwise
+from itertools import cycle
 
 import numpy as np
 import pytest
 import sympy
 from crowd import jacobian
 from pde.solvers import RungeKuttaSolver
-from plain_pypde import rate as readable_rate
-from plain_pypde import volume_nusselt
 
 from continuum.fluid import (
     EQUATIONS_OF_STATE,
     ConstEta,
     ConstNu,
+    IdealGas,
     PowerLaw,
     VanDerWaals,
     conductivity,
@@ -26,7 +25,7 @@ from continuum.gas import solve as compressible
 from continuum.pypde.gas import RHO, VX, VY, E, Gas
 from continuum.pypde.gas_loop import rate as compiled_rate
 from continuum.pypde.solve import StageLoop, onto, solve
-from continuum.scene import RayleighBenard, Walls
+from continuum.scene import RayleighBenard, Torus, Walls
 from continuum.steady import Steady, Time
 from studies.build.scenes import Tile
 from studies.kit.fits import richardson
@@ -38,33 +37,13 @@ every_fluid = pytest.mark.parametrize(("eos", "transport"), [*zip(
 
 
 def rough(gas: Gas, ke=0.01) -> np.ndarray:
-    """Rolls with noise on every field; noise alone where nothing rolls."""
-    data = np.ones((4, *gas.grid.shape)) if isinstance(gas.scene, Tile) else gas.rolls(ke)
+    """Rolls with noise on every field."""
+    data = gas.rolls(ke)
     return gas.repaired(data + 0.05*np.random.default_rng(1).standard_normal(data.shape))
 
 
 def rate(gas: Gas, data: np.ndarray) -> np.ndarray:
     return gas.evolution_rate(gas.state(data)).data
-
-
-@every_fluid
-def test_the_compiled_rates_of_the_gas_equal_the_readable_ones(eos, transport):
-    same_rates(Gas(RayleighBenard(ra=5000, eos=eos, transport=transport, L=1.0), 8))
-
-
-def test_the_compiled_rates_without_plates_equal_the_readable_ones():
-    """Every pair of fields that rough states have; T_hot and T_cold differ, so that plates would show."""
-    class Uneven(Tile):
-        T_hot, T_cold = 1.3, 0.8
-    same_rates(Gas(Uneven(width=1.5, L=1.0, law=ConstEta(0.02, 0.03)), 8))
-
-
-def same_rates(gas):
-    data = rough(gas)
-    slow = readable_rate(gas, data)
-    for compiled in (compiled_rate(gas.loop, data), rate(gas, data)):
-        # sums of some ten terms in another order: 7e-16 of the largest was measured
-        np.testing.assert_allclose(compiled, slow, rtol=0, atol=1e-14*np.abs(slow).max())
 
 
 @every_fluid
@@ -78,27 +57,36 @@ def test_the_motionless_gas_stays_so(eos, transport):
         np.testing.assert_allclose(still[E], 0, atol=1e-12)
 
 
+class Uneven(Tile):
+    """No plates, whose temperatures would show."""
+    T_hot, T_cold = 1.3, 0.8
+
+
 @pytest.mark.parametrize("scene", [
-    RayleighBenard(ra=100, L=1.0), RayleighBenard(ra=100, L=1.0, eos=VanDerWaals(), transport=ConstNu),
-], ids=["ideal gas, const eta", "van der Waals, const nu"])
+    *(RayleighBenard(ra=100, L=1.0, eos=eos, transport=law) for eos, law in (
+        (IdealGas(), ConstEta), (VanDerWaals(), ConstNu), (IdealGas(), PowerLaw))),
+    Uneven(width=2.0, L=1.0, eos=VanDerWaals(), law=ConstEta(0.02, 0.03))],
+    ids=["ideal", "van der Waals, const nu", "power law", "torus"])
 def test_the_rates_of_the_gas_are_of_second_order(scene):
-    exact, fields = manufactured(scene)
-    errors = []
-    for rows in (16, 32):
+    waves = 2 if scene.sides == Torus() else 1      # half ones over the height, of equal numbers of cells
+    (exact, fields), errors = manufactured(scene, waves), []
+    for rows in (16*waves, 32*waves):
         gas = Gas(scene, rows)
         data, wanted = (np.array([f(*gas.mesh(n)) for n, f in enumerate(fs)]) for fs in (fields, exact))
-        data[VY, :, -1] = wanted[VY, :, -1] = 0
+        if waves == 1:
+            data[VY, :, -1] = wanted[VY, :, -1] = 0
         errors.append(np.abs(rate(gas, data) - wanted).max(axis=(1, 2)))
     # 1.978 to 1.988 with these grids, 1.993 to 1.998 with twice as fine ones: the term of order h^4
     np.testing.assert_allclose(np.log2(errors[0]/errors[1]), 2, atol=0.04)
 
 
-def manufactured(scene):
+def manufactured(scene, waves):
     """(rates, fields) as functions of x, y; no curvature at the plates, so that ghosts are exact there."""
     x, y = sympy.symbols("x y")
-    bump = sympy.cos(sympy.pi*x)*sympy.cos(sympy.pi*y)
+    across = waves*sympy.pi*y
+    bump = sympy.cos(sympy.pi*x)*sympy.cos(across)
     rho, T = 1 + bump/10, scene.T_mean - scene.dT*y + bump/5
-    v = [sympy.Rational(3, 10)*sympy.sin(sympy.pi*x)*sympy.cos(sympy.pi*y), bump/4]
+    v = [sympy.Rational(3, 10)*sympy.sin(sympy.pi*x)*sympy.cos(across), bump/4]
     e = energy(scene.eos, rho, T)
     P, eta, k = pressure(scene.eos, rho, e), viscosity(scene.law, rho, T), conductivity(scene.law, rho, T)
     grad = [[sympy.diff(f, a) for f in v] for a in (x, y)]
@@ -165,14 +153,10 @@ def test_the_gas_is_that_of_the_other_grid(gases):
         assert ours.order == pytest.approx(2, abs=0.15)     # 1.89 to 2.07 on grids as coarse as these
 
 
-def test_steady_states_carry_the_same_heat_at_every_height(gases):
+def test_steady_states_carry_the_same_heat_through_both_plates(gases):
     for s in gases:
         assert s.converged and s.rolls == 2 and s.compile_s > 0 and s.cpu_s > 0
         assert s.nusselt[0] == pytest.approx(s.nusselt[1], rel=1e-4)    # 2e-5: e is no conserved sum
-    spread = [abs(volume_nusselt(s.equation, s.state) - s.nu) for s in gases]
-    # 3e-4 at 12 rows; of order 1.9 to 2.3
-    assert all(coarse/fine == pytest.approx((b/a)**2, rel=0.15)
-               for (coarse, fine), (a, b) in zip(pairwise(spread), pairwise(SIZES))) and spread[0] < 1e-3
 
 
 def test_mass_is_conserved_to_round_off(gases):

@@ -90,13 +90,6 @@ def endless(value, seeds, sizes=(25, 40, 50, 64)):
     return row["ke"], row["ke_err"]
 
 
-def test_a_lattice_is_extrapolated_as_grids_are():
-    value, err = endless(lambda rows: 4 + 9/rows**2 + 500/rows**4, seeds=[1])
-    assert value == pytest.approx(4.0, abs=1e-12)
-    # more than the fourth power leaves on the finest, less than the finest is off
-    assert 500/64**4 < err < 9/64**2
-
-
 @pytest.mark.parametrize(("sizes", "third"), [((25, 40, 50, 64), 0.0), ((12, 16, 25, 40, 50), 500.0)])
 def test_the_interval_of_scattered_sets_holds_their_limit(sizes, third):
     """19 in 20, more for what leaving out the coarsest adds: below 0.90 once in 10 000 by chance."""

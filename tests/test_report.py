@@ -12,7 +12,6 @@ from report_tables import committed, errors, one_study
 from studies.kit.claim import paper_of
 from studies.kit.csvfile import write
 from studies.kit.figure import Drawing, Drawings
-from studies.kit.key import ROOT
 from studies.kit.store import RESULTS
 from studies.kit.study import Part, Study
 from studies.report import inventory, text
@@ -45,16 +44,6 @@ def test_the_page_begins_as_the_readme_does(small, monkeypatch):
     (small/"README.md").write_text("# Title\n\nNo question.\n\n## More\n")
     with pytest.raises(inventory.NoReport, match=r"does not begin with a bold question.*: let it begin so"):
         text.opening(small)
-
-
-def test_links_of_texts_lead_into_the_page_or_to_files(small):
-    """The picture is in the page; a file that is not there is linked from where the page lies."""
-    assert text.target("toy.png", small/"rb", small) == "#figure-rb-toy"
-    assert text.target("results/rb/errors.csv", ROOT, small) == "#table-rb-errors"
-    assert text.target("../bench/README.md", RESULTS, RESULTS) == "../bench/README.md"
-    assert text.target("claims.csv", RESULTS, RESULTS) == "claims.csv"
-    assert text.target("results/findings.md", ROOT, RESULTS) == "#text-findings"
-    assert text.target("https://example.org", ROOT, small) == "https://example.org"
 
 
 def test_examples_have_small_pictures(tmp_path, capsys):

@@ -14,7 +14,6 @@ from continuum.fluid import (
     viscosity,
 )
 from continuum.scene import Periodic, RayleighBenard, Walls
-from particles.weights import Lucy
 
 every_eos = pytest.mark.parametrize("eos", EQUATIONS_OF_STATE.values(), ids=EQUATIONS_OF_STATE)
 
@@ -123,8 +122,3 @@ def test_a_scene_of_any_numbers_is_refused_or_has_finite_ones(**numbers):
         return
     derived = np.array([scene.nu, scene.k, scene.g, scene.viscous_time, scene.width])
     assert (derived > 0).all() and np.isfinite(derived).all()
-
-
-def test_a_class_in_place_of_an_object_is_told():
-    with pytest.raises(TypeError, match=r"an object, got the class Lucy itself: give Lucy\(\.\.\.\) or"):
-        pressure(Lucy, 1.0, 1.0)

@@ -135,12 +135,6 @@ def test_a_particle_on_the_seam_has_all_its_neighbours(side):
     assert abs(ax.sum()) < 1e-12 and abs(ay.sum()) < 1e-12  # a missing image costs its whole force, about 0.1
 
 
-@pytest.mark.parametrize("skin", [0.05, 1.0, 4.0])
-def test_same_for_every_skin(skin):
-    state = crowd(BOX, COLUMNS, ROWS)
-    assert close(rates(free(skin=skin), state), rates(free(), state)) < 1e-13
-
-
 # 198 to 1001 rows: a thread is used from 64 rows on; odd numbers leave remainders to vector instructions
 @pytest.mark.parametrize("columns, rows", [(18, 11), (25, 25), (77, 13)])
 @pytest.mark.parametrize("name", ["printed", "direct"])

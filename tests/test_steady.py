@@ -4,7 +4,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from continuum.steady import Steady, Time, left
+from continuum.steady import Steady, Time
 
 SCENE = SimpleNamespace(viscous_time=100.0)
 
@@ -15,18 +15,6 @@ def stopped(rule, ke_of_t):
     while not rule.done(ke):
         ke.append(ke_of_t(len(ke)*rule.interval(SCENE)/SCENE.viscous_time))
     return np.array(ke), (len(ke) - 1)*rule.interval(SCENE)/SCENE.viscous_time
-
-
-@pytest.mark.parametrize("ratio", [0.5, 0.99, -0.7])
-def test_what_is_left_of_a_geometric_decay(ratio):
-    means = 2 + ratio**np.arange(10)
-    assert left(means) == pytest.approx(2 - means[-1], rel=1e-9)  # differences of numbers of order 1
-
-
-def test_nothing_is_known_of_what_does_not_decay():
-    assert left(np.array([1.0, 2.0])) == np.inf
-    assert left(np.array([1.0, 2.0, 3.0])) == np.inf
-    assert left(np.array([1.0, 2.0, 4.0])) == np.inf
 
 
 @pytest.mark.parametrize("slow", [0.3, 3.0])

@@ -18,14 +18,13 @@ from particles.weights import Lucy
 from studies.noise import covariance
 from studies.noise.below_onset import layer_noise
 from studies.noise.covariance import steady, waves
-from studies.noise.partners import equilibrium, noise, transport
+from studies.noise.partners import noise, transport
 
 
 def gas(share: float = 0.1, k: float = 1e-3, **more) -> Thermal:
     edges = MAKERS["delaunay"](jittered((5, 5), 0.2, 1), None)
     return Thermal(**{"edges": edges, "eos": IdealGas(), "law": ConstEta(0.3, 0.4), "zeta": 0.1, "k": k,
-                      "seed": 7,
-                      "share": share, **more})
+                      "seed": 7, "share": share, **more})
 
 
 def rest(method: Thermal) -> np.ndarray:
@@ -153,16 +152,6 @@ def test_three_stages_in_time_are_those_of_the_lyapunov_solve():
                                                                                                 abs=1e-15)
     noises = np.stack([stepped(none, halves) for halves in unit], axis=1)
     assert noises@noises.T == pytest.approx(step.Q, abs=1e-15)
-
-
-def test_noise_reaches_the_covariance_of_equilibrium_on_irregular_points():
-    method = gas(0.4)
-    J = jacobian(method.rates, rest(method))
-    Q = noise(method.edges.V,
-              *(part.Q for part in transport(method.edges, 0.4, 0.3, 0.1, 0.4, 1.0))).toarray()
-    exactly = equilibrium(method.edges.V, 2)
-    C = steady(J, Q, np.kron(np.eye(4), method.edges.V))
-    assert C == pytest.approx(exactly, abs=1e-10*exactly.max())
 
 
 def test_plates_have_the_noise_of_their_friction_and_heat():

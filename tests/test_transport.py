@@ -4,18 +4,18 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from crowd import rates
+from scenes import rows_of
 
 from continuum.exact.shear import couette, poiseuille
 from continuum.exact.waves import QUANTITIES, LinearGas, continuum, quantities
-from continuum.fluid import ConstEta, ConstNu, IdealGas
-from particles.integral.dih import Dih, NestedFluxes, Pairwise
+from continuum.fluid import ConstNu
+from particles.integral.dih import NestedFluxes, Pairwise
 from particles.integral.edge_makers import delaunay, renormalised
-from particles.integral.points import jittered
 from particles.weights import Lucy
 from studies.build.setting import DISORDERS
 from studies.build.symbols import lattice_waves
 from studies.operators.cases import DRIVES
-from studies.operators.transport import BETWEEN, SPEED, Decay, between_rows, propagators
+from studies.operators.transport import BETWEEN, SPEED, Decay, between_rows
 
 GAS = LinearGas(0.3, 0.2, 0.4)
 COUETTE, _ = DRIVES
@@ -27,7 +27,7 @@ TOLD = ("viscosity", "bulk viscosity", "conductivity", "sound speed")
 def decay(transport, make=renormalised, disorder="lattice", counts=(12, 8)):
     """Rows by quantity."""
     case = Decay(transport=transport, make=make, disorder=DISORDERS[disorder], counts=counts, h=2.0, zeta=0.2)
-    return {row["quantity"]: row for row in case.run(lambda done: None, None).rows["waves"]}
+    return {row["quantity"]: row for row in rows_of(case, "waves")}
 
 
 def test_continuum_of_long_waves_has_the_coefficients_put_in():
@@ -53,14 +53,6 @@ def test_coefficients_on_irregular_points_are_near_the_continuum():
     for row in decay(NestedFluxes(), delaunay, "jittered-0.1", (16, 8)).values():
         assert abs(row["measured"] - row["continuum"]) < 0.05*row["continuum"]
         assert 0 < row["measured_err"] < 0.02*row["continuum"]
-
-
-def test_waves_that_have_no_time_stay_as_they_are():
-    """Amplitudes of exp(ik.r) off a lattice: one of its own, none of the other fields nor of exp(-ik.r)."""
-    at = jittered((12, 8), 0.3, 1)
-    dih = Dih(edges=renormalised(at, Lucy.of(h=2.0)), eos=IdealGas(), law=ConstEta(0.3, 0.4))
-    U = propagators(dih, at.x, 2*np.pi/12, 1e-9, (0.0, np.pi/2))
-    np.testing.assert_allclose(U, np.stack([np.eye(4)]*3), atol=1e-4)     # pushed by 1e-9/AMPLITUDE
 
 
 @pytest.mark.parametrize(("series", "force", "final"), [(couette, 0.0, lambda y: y),

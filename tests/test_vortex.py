@@ -3,10 +3,6 @@ import numpy as np
 import pytest
 
 from continuum.exact.vortex import DECAYS, SOUND, Vortex, derivative, solved, velocities
-from particles.integral.edge_makers import renormalised
-from particles.integral.points import lattice
-from particles.weights import Lucy
-from studies.ordering.runs import begun, decayed
 
 
 def rms(v: np.ndarray) -> float:
@@ -30,15 +26,3 @@ def test_the_gas_becomes_incompressible_as_the_square_of_the_mach_number():
     errors = [rms(velocities(gas, place) - exact)/rms(exact) for gas in (slow, fast)]
     assert errors[1]/errors[0] == pytest.approx(4, rel=0.15)
     assert errors[0] < 0.3*0.15**2
-
-
-def test_a_vortex_begins_with_the_pressure_that_keeps_it_incompressible():
-    """div (dv/dt) = 0 at the start but for Mach^2, on points that differentiate as a lattice does."""
-    points, vortex = lattice((24, 24)), Vortex(0.05, 24)
-    edges = renormalised(points, Lucy.of(h=1.2))
-    method, first = begun(vortex, points, edges)
-    there = method.fields(first)
-    assert there.V@there.rho == pytest.approx(24**2, rel=vortex.mach**2)
-    assert there.rho == pytest.approx(there.T, rel=1e-14)
-    assert there.v == pytest.approx(vortex.velocity(points.x), rel=1e-14)
-    assert np.isfinite(decayed(vortex, points, edges)[0]).all()

@@ -80,9 +80,8 @@ def test_second_derivative_is_continuous_through_the_centre(kind):
     assert slope(kind.of(h=1.0), 0.0) == pytest.approx(second(kind, 1e-4), rel=2e-3)
 
 
-@pytest.mark.parametrize("kind, positive",
-                         [(Lucy, False), (Monaghan, False), (WendlandC2, True), (WendlandC4, True),
-                                            (WendlandC6, True)])
+@pytest.mark.parametrize("kind, positive", [
+    (Lucy, False), (Monaghan, False), (WendlandC2, True), (WendlandC4, True), (WendlandC6, True)])
 def test_only_wendland_weights_have_a_positive_transform(kind, positive):
     # the 2D transform at k h up to 60; where it is negative, particles pair. Lucy reaches -6e-6, the
     # B-spline -6e-5
@@ -94,11 +93,9 @@ def test_only_wendland_weights_have_a_positive_transform(kind, positive):
     assert (transform.min() > 0) == positive
 
 
-@pytest.mark.parametrize("h, d, words",
-                         [(0.0, 2, "must be positive and finite, got 0.0"),
-                          (-1.0, 2, "take 3 sigma"),
-                                         (np.nan, 2, "finite, got nan"), (np.inf, 2, "finite, got inf"),
-                                         (3.0, 4, "d = 1, 2, 3 .*got d = 4")])
+@pytest.mark.parametrize("h, d, words", [
+    (0.0, 2, "must be positive and finite, got 0.0"), (-1.0, 2, "take 3 sigma"),
+    (np.nan, 2, "finite, got nan"), (np.inf, 2, "finite, got inf"), (3.0, 4, "d = 1, 2, 3 .*got d = 4")])
 def test_errors(h, d, words):
     with pytest.raises(ValueError, match=words):
         Lucy.of(h=h, d=d)

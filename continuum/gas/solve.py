@@ -13,19 +13,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from continuum import fluid
-from continuum.gas.fields import (
-    NodeFields,
-    Nusselt,
-    block,
-    count_rolls,
-    initial,
-    kinetic_energy,
-    mean,
-    nusselt,
-    onto,
-    unblock,
-    wall_flux,
-)
+from continuum.gas import fields as grid
+from continuum.gas.fields import NodeFields, Nusselt
 from continuum.gas.ghosts import FIELDS, RHO, VX, VY, E, FluxForm, box_of, in_loop
 from continuum.gas.loop import advance
 from continuum.steady import RK4_DECAY, RK4_SOUND, GridRun, Steady, of_samples, steps_between
@@ -62,7 +51,7 @@ class Limits(NamedTuple):
 
 def limits(scene, S: np.ndarray) -> Limits:
     """From the fastest wave and the largest diffusivity; compact differences see wave numbers to 2/h."""
-    h, rho, (vx, vy, e) = scene.L/(S.shape[1] - 2), mean(S[RHO]), (S[f, 1:, 1:] for f in (VX, VY, E))
+    h, rho, (vx, vy, e) = scene.L/(S.shape[1] - 2), grid.mean(S[RHO]), (S[f, 1:, 1:] for f in (VX, VY, E))
     spread = fluid.diffusivity(scene.eos, scene.law, rho, e)
     fast = 2*sound_of_grid(scene.eos, rho, e) + np.abs(vx) + np.abs(vy)
     with np.errstate(divide="ignore"):      # no diffusion, no limit
@@ -116,7 +105,7 @@ class March:
 
 def faults(scene, S: np.ndarray) -> np.ndarray:
     """True at nodes whose state cannot be."""
-    rho, e = mean(S[RHO]), S[E, 1:, 1:]
+    rho, e = grid.mean(S[RHO]), S[E, 1:, 1:]
     with np.errstate(all="ignore"):
         return ~(np.isfinite(S[:, 1:, 1:]).all(axis=0) & fluid.valid(scene.eos, rho, e))
 
@@ -136,11 +125,11 @@ def first_fault(scene, S: np.ndarray) -> str:
 
 
 def sample(scene, S: np.ndarray, t: float) -> tuple[float, float, float, float]:
-    rho, e = mean(S[RHO, :5]), S[E, 1:4, 1:]
+    rho, e = grid.mean(S[RHO, :5]), S[E, 1:4, 1:]
     T = fluid.temperature(scene.eos, rho[:3], e)
     k = fluid.conductivity(scene.law, rho[:3], T)*np.ones_like(T)
-    flux = wall_flux(T, k, scene.L/(S.shape[1] - 2))
-    return t, kinetic_energy(S), flux/(scene.k*scene.dT*scene.aspect), float(np.mean(S[RHO, 1:-1, 1:-1]))
+    flux = grid.wall_flux(T, k, scene.L/(S.shape[1] - 2))
+    return t, grid.kinetic_energy(S), flux/(scene.k*scene.dT*scene.aspect), float(np.mean(S[RHO, 1:-1, 1:-1]))
 
 
 def run(scene, rows: int, *, until: Any = Steady(), start: NodeFields | None = None, dt: float | None = None,  # noqa: B008
@@ -152,9 +141,9 @@ def run(scene, rows: int, *, until: Any = Steady(), start: NodeFields | None = N
     continuity : FluxForm() or PaperForm(). progress : called with the fraction done.
     Raises ValueError: rows odd or below 8, dt above the limit, an invalid start. DivergedError: where.
     """
-    fields = initial(scene, rows) if start is None else onto(scene, rows, start)
+    fields = grid.initial(scene, rows) if start is None else grid.onto(scene, rows, start)
     fluid.check_state(scene.eos, fields.at.rho, fields.at.e)
-    S = block(fields)
+    S = grid.block(fields)
     interval = until.interval(scene)
     count = steps_between(interval, limits(scene, S).both, dt)
     march = March(scene, S, continuity, interval/count)
@@ -164,9 +153,9 @@ def run(scene, rows: int, *, until: Any = Steady(), start: NodeFields | None = N
         samples.append(sample(scene, S, march.t))
         if progress:
             progress(until.fraction([s[1] for s in samples]))
-    fields = unblock(scene, S)
+    fields = grid.unblock(scene, S)
     return Solution(
-        scene=scene, rows=rows, fields=fields, nusselt=nusselt(fields), rolls=count_rolls(fields),
+        scene=scene, rows=rows, fields=fields, nusselt=grid.nusselt(fields), rolls=grid.count_rolls(fields),
         dt=march.dt, steps=march.steps, cpu_s=time.process_time() - march.start, compile_s=march.compile_s,
         **of_samples(until, samples))
 

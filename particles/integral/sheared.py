@@ -16,14 +16,13 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from continuum.jit import jit
+from particles.integral.edge_makers import renormalised
 from particles.integral.edges import Edges
 from particles.integral.fixed import FixedSums, OnPoints
-from particles.integral.points import Points
+from particles.integral.points import Points, lattice
 from particles.neighbours import u32, u64
 from particles.pairs import Stored
 from particles.threads import Threads
-
-SYMMETRIC = 1e-12       # of S through the side: round-off of some ten edges
 
 
 class Through(NamedTuple):
@@ -52,11 +51,10 @@ class SlidSides(NamedTuple):
     counts: tuple[int, int]
 
 
-def sides(points: Points, edges: Edges) -> SlidSides:
-    """Edges of a periodic lattice with sliding images in place of the periodic ones above and below. Raises
-    ValueError: no lattice, or edges that are not alike in all columns, or no mirror images in x."""
-    counts = check_lattice(points)
-    check_alike(points, edges, counts)
+def sides(points: Points, edges: Edges, counts: tuple[int, int]) -> SlidSides:
+    """Edges of a periodic lattice with sliding images in place of the periodic ones above and below.
+
+    They are alike in all columns, and their own mirror images in x, as those of a weight are."""
     i, j = np.concatenate([edges.i, edges.j]), np.concatenate([edges.j, edges.i])
     S, k = np.concatenate([edges.S, -edges.S])/2, np.concatenate([edges.k, edges.k])
     up = crossing(points, edges)
@@ -87,39 +85,10 @@ def images(through: Through, counts: tuple[int, int]) -> tuple[np.ndarray, np.nd
     return parent, up, number
 
 
-def check_lattice(points: Points) -> tuple[int, int]:
-    """Columns and rows of a lattice whose points are numbered column by column."""
-    columns, rows = (len(np.unique(np.round(q/points.a, 6))) for q in points.x.T)
-    place = np.stack([np.repeat(np.arange(columns), rows), np.tile(np.arange(rows), columns)], axis=1)
-    if columns*rows != points.n or np.abs(points.x - points.x[0] - place*points.a).max() > 1e-9*points.a:
-        raise ValueError(f"{points.n} points in {columns} columns and {rows} rows are no square lattice: "
-                         "take one of `points.lattice`")
-    return columns, rows
-
-
 def crossing(points: Points, edges: Edges) -> np.ndarray:
     """1 for edges i -> j through the upper side, -1 through the lower, 0 for others."""
     beyond = (points.x[edges.i] + edges.apart - points.x[edges.j])[:, 1]
     return np.round(beyond/points.box[1]).astype(int)
-
-
-def check_alike(points: Points, edges: Edges, counts: tuple[int, int]) -> None:
-    """Refuse edges through the side that differ between columns, or whose S_x do not add up to zero."""
-    up = crossing(points, edges)
-    turn, through = np.where(up < 0, -1.0, 1.0)[up != 0, None], up != 0
-    S, apart = turn*edges.S[through], turn*edges.apart[through]
-    below = np.where(turn[:, 0] > 0, edges.i[through], edges.j[through])
-    kinds = np.column_stack([below % counts[1], np.round(apart/points.a).astype(int)])
-    _, kind, number = np.unique(kinds, axis=0, return_inverse=True, return_counts=True)
-    mean = np.stack([np.bincount(kind.ravel(), s)/number for s in S.T], axis=1)
-    size = np.abs(edges.S).sum(axis=1).max()
-    if (number != counts[0]).any() or np.abs(S - mean[kind.ravel()]).max() > SYMMETRIC*size:
-        raise ValueError("edges through the side differ from column to column: take edges of a weight, not "
-                         "of a triangulation, which chooses diagonals")
-    worst = np.abs(np.bincount(below, S[:, 0], points.n)).max()
-    if worst > SYMMETRIC*size:
-        raise ValueError(f"edges through the side have a sum of S_x of {worst:.3g} at a point, which must be "
-                         "zero: take edges that are their own mirror images in x, as those of a weight")
 
 
 class Boosted(NamedTuple):
@@ -167,9 +136,12 @@ class Shearing(FixedSums):
 
 @dataclass(frozen=True, kw_only=True)
 class Sheared(OnPoints):
-    """A fluid on the points of a lattice, periodic in x; images above move faster by rate times height."""
-    points: Points
-    edges: Edges
+    """A fluid on a lattice of columns and rows one spacing apart, periodic in x, with edges of a weight.
+
+    Images above move faster by rate times height.
+    """
+    counts: tuple[int, int]
+    weight: Any
     eos: Any
     law: Any
     rate: float
@@ -177,8 +149,13 @@ class Sheared(OnPoints):
     names = (*OnPoints.names, "slid")
     sums = Shearing
 
-    def __post_init__(self):
-        _ = self.sides      # what is wrong with points or edges is told here
+    @cached_property
+    def points(self) -> Points:
+        return lattice(self.counts)
+
+    @cached_property
+    def edges(self) -> Edges:       # type: ignore[override]
+        return renormalised(self.points, self.weight)
 
     @property
     def x(self) -> np.ndarray:
@@ -186,7 +163,7 @@ class Sheared(OnPoints):
 
     @cached_property
     def sides(self) -> SlidSides:
-        return sides(self.points, self.edges)
+        return sides(self.points, self.edges, self.counts)
 
     @property
     def speed(self) -> float:

@@ -124,9 +124,8 @@ class CylinderDrag(Case):
 
 def sliding(rows: int, eta: float) -> Sheared:
     """A square box whose images slide, with edges to nearest neighbours."""
-    points = lattice((rows, rows))
-    return Sheared(points=points, edges=renormalised(points, Lucy.of(h=2.0)), eos=IdealGas(),
-                   law=ConstEta(eta, eta), rate=DIFFERENCE/rows)
+    return Sheared(counts=(rows, rows), weight=Lucy.of(h=2.0), eos=IdealGas(), law=ConstEta(eta, eta),
+                   rate=DIFFERENCE/rows)
 
 
 def slid(method: Sheared, first: np.ndarray, report: Report) -> tuple[Run, float]:
