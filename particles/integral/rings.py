@@ -17,7 +17,7 @@ from particles.pairs import Stored
 
 #: below this a conductance is negative, not round-off of points on one circle
 FLAT = -1e-9
-SPARE = 3           # free places in the longest ring
+SPARE = 2           # free places in the longest ring
 STRIP = 4.0         # spacings
 LEAST = 8.0         # spacings along a periodic axis: in a narrower box a point is a neighbour twice
 
@@ -48,7 +48,7 @@ def rings(x: np.ndarray, size: tuple[float, float], closed: tuple[bool, bool]) -
     spokes = np.concatenate([corner, np.roll(corner, -1, axis=1), np.roll(corner, -2, axis=1)])
     spokes = spokes[np.lexsort((spokes[:, 1], spokes[:, 0]))]
     count = np.bincount(spokes[:, 0], minlength=len(x))
-    table = np.full((len(x), int(count.max()) + 1 + SPARE), -1, np.int32)
+    table = np.full((len(x), int(count.max()) + SPARE), -1, np.int32)
     rim, ends = np.zeros(len(x), bool), np.cumsum(count)
     for i in range(len(x)):
         rows = spokes[ends[i] - count[i]:ends[i], 1:]

@@ -1,4 +1,5 @@
 """Edges of P1 finite elements on the Delaunay triangulation: closed, exact on linear fields."""
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -9,6 +10,8 @@ from particles.integral.points import Points, of_positions
 
 #: spacings: a shift where several triangulations are right, and the least distance that keeps their order
 SHIFT, APART = 1e-7, 1e-6
+#: spacings beyond the box in which images are looked for first, in 2D
+MARGIN = 8.0
 
 
 def delaunay(points: Points, weight: Any = None) -> Edges:
@@ -17,7 +20,7 @@ def delaunay(points: Points, weight: Any = None) -> Edges:
     Closed and exact on linear fields on any points; the conductances are those of P1, (cot + cot)/2 in 2D.
     Raises ValueError: d = 1, two points overlap, or points lie on one sphere (a lattice in 3D).
     """
-    return _assembled(points, *_simplices(points))
+    return _assembled(points, *_simplices(points, points.box))
 
 
 def between(x: np.ndarray, width: float, height: float, closed: tuple[bool, bool] = (False, True)) -> Edges:
@@ -40,24 +43,32 @@ def triangles(x: np.ndarray, size: tuple[float, float],
         if max(abs(low + half), abs(high - half)) > 2e-12*half:
             raise ValueError(f"points lie between {'xy'[axis]} = {low:g} and {high:g}, plates at -+{half:g}: "
                              "put a row of points on each plate")
-    corner, at = _simplices(of_positions(x, np.where(shut, 3*box, box)))
-    # not those that span the gap from plate to plate
-    inner = (np.abs(at.mean(axis=1)) < box/2)[:, shut].all(axis=1)
-    return corner[inner], at[inner]
+    # neither those in the gap from plate to plate nor flat ones along a plate
+    return _simplices(of_positions(x, np.where(shut, 3*box, box)), np.where(shut, (1 - 1e-9)*box, box))
 
 
-def _simplices(points: Points) -> tuple[np.ndarray, np.ndarray]:
-    """Corners of all simplices: points (T, d + 1), and where these are, (T, d + 1, d)."""
+def _simplices(points: Points, size: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Corners of all simplices in the box `size`: points (T, d + 1), and where these are, (T, d + 1, d)."""
     if points.d == 1:
         raise ValueError("there are no triangles in one dimension: take edges of a weight")
     _check_apart(points)
-    x, owner = _with_images(points)
     # of four points on a circle all images must get the same diagonal: a small shift decides
     shift = np.random.default_rng(0).uniform(-SHIFT, SHIFT, points.x.shape)*points.a
-    simplices = Delaunay(x + shift[owner]).simplices
-    middle = x[simplices].mean(axis=1)/points.box
-    simplices = simplices[((middle >= -0.5) & (middle < 0.5)).all(axis=1)]      # one of each set of images
+    for margin in (MARGIN*points.a, points.box.max()/2)[points.d - 2:]:
+        x, owner = _with_images(points, np.minimum(margin, points.box/2))
+        simplices = Delaunay(x + shift[owner]).simplices
+        middle = x[simplices].mean(axis=1)/size
+        simplices = simplices[((middle >= -0.5) & (middle < 0.5)).all(axis=1)]  # one of each set of images
+        if points.d > 2 or _diameters(x[simplices]).max() < margin:
+            break
     return owner[simplices], x[simplices]
+
+
+def _diameters(x: np.ndarray) -> np.ndarray:
+    """Of the circles through triangles (T, 3, 2): no point that is left out may lie in one."""
+    a, b, c = (x[:, s] - x[:, s - 1] for s in range(3))
+    area = np.abs(a[:, 0]*b[:, 1] - a[:, 1]*b[:, 0])
+    return np.sqrt((a**2).sum(axis=1)*(b**2).sum(axis=1)*(c**2).sum(axis=1))/np.maximum(area, 1e-300)
 
 
 def _check_apart(points: Points) -> None:
@@ -89,10 +100,9 @@ def _assembled(points: Points, corner: np.ndarray, x: np.ndarray) -> Edges:
     return combined(i, j, S, k, apart, V, points.a)
 
 
-def _with_images(points: Points) -> tuple[np.ndarray, np.ndarray]:
-    """Positions with all images within half a box around, and which point each is of."""
-    shifts = np.stack([s.ravel() for s in np.meshgrid(*[[-1, 0, 1]]*points.d, indexing="ij")], axis=1)
-    x = (points.x[None] + shifts[:, None]*points.box).reshape(-1, points.d)
-    owner = np.tile(np.arange(points.n), len(shifts))
-    near = (np.abs(x) < points.box).all(axis=1)
-    return x[near], owner[near]
+def _with_images(points: Points, margin: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Positions with all images within `margin` around the box, and which point each is of."""
+    images = [points.x + shift*points.box for shift in product((-1, 0, 1), repeat=points.d)]
+    near = [(np.abs(x) < points.box/2 + margin).all(axis=1) for x in images]
+    owner = np.concatenate([np.flatnonzero(q) for q in near])
+    return np.concatenate([x[q] for x, q in zip(images, near)]), owner
