@@ -18,7 +18,7 @@ from particles.weights import Lucy
 from studies.noise import covariance
 from studies.noise.below_onset import layer_noise
 from studies.noise.covariance import steady, waves
-from studies.noise.partners import equilibrium, noise, transport
+from studies.noise.partners import noise, transport
 
 
 def gas(share: float = 0.1, k: float = 1e-3, **more) -> Thermal:
@@ -155,12 +155,22 @@ def test_three_stages_in_time_are_those_of_the_lyapunov_solve():
     assert noises@noises.T == pytest.approx(step.Q, abs=1e-15)
 
 
+def equilibrium(V: np.ndarray) -> np.ndarray:
+    """Covariance of densities of the gas at rest in 2D, all sums fixed: rho, v, T have the variance 1/V."""
+    n = len(V)
+    to_state = np.eye(4*n)
+    to_state[-n:, :n] = np.eye(n)       # eps = rho T
+    C = to_state@np.diag(np.tile(1/V, 4))@to_state.T
+    sums = np.kron(np.eye(4), V)
+    return C - C@sums.T@np.linalg.solve(sums@C@sums.T, sums@C)
+
+
 def test_noise_reaches_the_covariance_of_equilibrium_on_irregular_points():
     method = gas(0.4)
     J = jacobian(method.rates, rest(method))
     Q = noise(method.edges.V,
               *(part.Q for part in transport(method.edges, 0.4, 0.3, 0.1, 0.4, 1.0))).toarray()
-    exactly = equilibrium(method.edges.V, 2)
+    exactly = equilibrium(method.edges.V)
     C = steady(J, Q, np.kron(np.eye(4), method.edges.V))
     assert C == pytest.approx(exactly, abs=1e-10*exactly.max())
 

@@ -35,11 +35,6 @@ ALL = (
              about="A sound wave on moving points; predicted from sums over the lattice and one moved."),
     Table.of("long_sound", "motion weight", "speed speed_err", means=SOUND,
              about="The same of endless waves, extrapolated."),
-    Table.of("steps", "motion flow integrator steps", "dt error error_err",
-             about="A run in so many steps over a fixed time.",
-             means={"error": ("rms error of the positions over the rms displacement", "")}),
-    Table.of("accuracy", "motion flow", "ratio ratio_err", about="Two integrators at the shortest step.",
-             means={"ratio": ("error with new velocities [Eq. 41] over that with old ones [Eq. 40]", "")}),
     Table.of("identity", "transport reynolds", "convective",
              about="Accelerations of two forms of the momentum equation for one set of random fields."),
     Table.of("signs", "equation wavelength", "factor",
@@ -70,7 +65,7 @@ DERIVED = Iterator[dict[str, Any]]
 def derive(tables: Tables) -> Rows:
     """Derived rows of the study, of the tables there are."""
     rows = {}
-    for name, source, make in (("long_sound", "moving_sound", long_sound), ("accuracy", "steps", accuracy),
+    for name, source, make in (("long_sound", "moving_sound", long_sound),
                                ("drag_limits", "drag", drag_limits)):
         if source in tables:
             rows[name] = list(make(tables[source]))
@@ -96,16 +91,6 @@ def long_sound(sound: pd.DataFrame) -> DERIVED:
 def extrapolated(speeds: pd.Series, a: int, b: int) -> float:
     """Speed at 1/wavelength^2 = 0 from two wavelengths."""
     return float((b*b*speeds[b] - a*a*speeds[a])/(b*b - a*a))
-
-
-def accuracy(steps: pd.DataFrame) -> DERIVED:
-    """Errors of two integrators at the shortest step; they share a reference, whose errors add up."""
-    for (motion, flow), group in steps.groupby(["motion", "flow"]):
-        finest = group[group["steps"] == group["steps"].max()].set_index("integrator")
-        new, old = finest.loc["two-step"], finest.loc["euler"]
-        ratio = new["error"]/old["error"]
-        relative = new["error_err"]/new["error"] + old["error_err"]/old["error"]
-        yield {"motion": motion, "flow": flow, "ratio": ratio, "ratio_err": ratio*relative}
 
 
 def drag_limits(drags: pd.DataFrame) -> DERIVED:

@@ -1,4 +1,4 @@
-"""A study, made of parts, and its command line: python -m studies.NAME [run|figures|claims]."""
+"""A study and its command line: python -m studies.NAME [run|figures|claims]."""
 import argparse
 import math
 import os
@@ -11,8 +11,6 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from pathlib import Path
 from typing import Any, NamedTuple
-
-import pandas as pd
 
 from studies.kit.case import Case
 from studies.kit.claim import Claim, judge, put_claims
@@ -40,42 +38,25 @@ class Own(NamedTuple):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Part:
-    """Cases by size, the tables these fill, and what reads the tables."""
-
-    cases: Callable[[str], Iterable[Case]]
-    tables: Sequence[Table]
-    #: rows that follow from the tables (extrapolations, means over seeds), merged into them
-    derive: Callable[[Tables], Rows] = lambda tables: {}
-    figures: Drawings = NO_FIGURES
-    claims: Sequence[Claim] = ()
-
-
-@dataclass(frozen=True, kw_only=True)
-class Study(Part):
-    """One question: a name, a sentence that asks it, and what answers it.
+class Study:
+    """One question: a name, a sentence that asks it; cases by size, their tables, and what reads these.
 
     Raises ValueError: Two tables, figures or claims have one name.
     """
 
     name: str
     question: str = ""
+    cases: Callable[[str], Iterable[Case]]
+    tables: Sequence[Table]
+    #: rows that follow from the tables (extrapolations, means over seeds), merged into them
+    derive: Callable[[Tables], Rows] = lambda tables: {}
+    figures: Drawings = NO_FIGURES
+    claims: Sequence[Claim] = ()
     own: Own | None = None
 
     def __post_init__(self):
         check_once("tables", (table.name for table in self.tables))
         check_once("claims", (claim.id for claim in self.claims))
-
-    @classmethod
-    def of(cls, name: str, question: str, parts: Sequence[Part], own: Own | None = None) -> "Study":
-        """A study of many parts. Rows are derived in order: each part finds what those before it derived."""
-        drawings = [drawing for part in parts for drawing in part.figures.drawings]
-        return cls(name=name, question=question.split("\n")[0], own=own,
-                   cases=lambda size: [case for part in parts for case in part.cases(size)],
-                   tables=[table for part in parts for table in part.tables],
-                   derive=lambda tables: derived(parts, tables),
-                   figures=Drawings(*drawings),
-                   claims=[claim for part in parts for claim in part.claims])
 
     def run(self, size: str, *, out: Path | None = None, cases: Sequence[Case] = (), **more: Any) -> Tables:
         """Cases to tables, derived rows among them; more, such as ``workers``, are fields of `Sweep`.
@@ -116,17 +97,6 @@ class Study(Part):
         """The tables that exist."""
         paths = [out/self.name/table.file for table in self.tables]
         return [path for path in paths if path.exists()]
-
-
-def derived(parts: Iterable[Part], tables: Tables) -> Rows:
-    """Rows of all parts, each of which finds the rows of those before it in place of the tables on disk."""
-    rows: dict[str, list[Row]] = {}
-    for part in parts:
-        frames = {name: pd.DataFrame(new) for name, new in rows.items() if new}
-        new = part.derive(Tables({**tables, **frames}))
-        check_once("derived tables", [*rows, *new])
-        rows.update(new)
-    return rows
 
 
 def main(study: Study, arguments: Sequence[str] | None = None) -> None:

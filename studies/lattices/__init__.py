@@ -1,8 +1,8 @@
 """Is a fluid of smooth particles a lattice, or one of molecules?
 
 KHP95, Secs II-IV: when lattices pair, clump or melt, and how fast sound is on them; at which pressure
-convection freezes, against the printed criteria; whether paths are those of molecules and run back. Lengths
-are in spacings: particles have unit mass at mean density 1.
+convection freezes, against the printed criteria; whether paths run back. Lengths are in spacings: particles
+have unit mass at mean density 1.
 """
 from studies.kit.study import Study
 from studies.lattices import cases, claims, figures, loss

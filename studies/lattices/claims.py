@@ -85,19 +85,6 @@ LATTICES = (
           because="beyond 1 it is the particles that clump, not the fluid"),
 )
 
-CHANCE = "of particles at random 0.54 have a neighbour within half a spacing"
-PAIRS = (
-    Claim(id="khp95-hard-pairs-monaghan",
-          source="KHP95 Sec. VI", printed="closely associated pairs", at_least=0.8,
-          value=over_seeds("fates", "shared", weight="Monaghan", h=3.0), because=CHANCE,
-          statement="with Monaghan's weight, h = 3, particles end in pairs: part that has another within "
-                    "half a spacing, gas left to rest"),
-    Claim(id="khp95-hard-pairs-lucy", source="KHP95 Sec. VI", printed="no such pairing", at_most=0.1,
-          value=over_seeds("fates", "shared", weight="Lucy", h=3.0), because=CHANCE,
-          statement="with Lucy's weight, h = 3, particles do not end in pairs: part that has another within "
-                    "half a spacing, gas left to rest"),
-)
-
 RULE = "a criterion from a rule of thumb is good to a factor of two at best"
 MELTING, BARRIER = "mv^2 > 2Pn^-2[w(0.9)-w(1)]", "mv^2 > 2Pn^-2 w(0)"
 FREEZING = (
@@ -131,11 +118,6 @@ FREEZING = (
 )
 
 MOLECULES = (
-    Claim(id="khp95-hard-molecules", source="KHP95 Sec. III", printed="identical", at_most=1e-11,
-          value=one("twins", "apart", weight="Lucy", time=10.0),
-          statement="for P ~ rho^2 compiled smooth particles keep paths of molecules: rms distance at "
-                    "t = 10, 64 particles",
-          because="round-off of 1e-16 that grows by a factor of e in a time of 1 at the fastest"),
     Claim(id="khp95-hard-reversal", headline=True, evidence="lattices/reversal.png",
           source="KHP95 Sec. III", printed="exact reversibility", expect=1, within=0,
           value=least("reversal", "equal", integrator="whole numbers"), because="exact is all of them",
@@ -215,4 +197,4 @@ STRESS = (
                     "that a force holds over the exact one, Wendland C2, h = 8.5 a, 200 rows",
           because="2 %, a tenth of what a fixed range loses", evidence="lattices/yield.png"),
 )
-CLAIMS = (*LATTICES, *PAIRS, *FREEZING, *MOLECULES, *SOUND, *STRESS)
+CLAIMS = (*LATTICES, *FREEZING, *MOLECULES, *SOUND, *STRESS)

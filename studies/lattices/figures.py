@@ -38,13 +38,12 @@ def freezing(rows: pd.DataFrame, limits: pd.DataFrame) -> Figure:
     return page
 
 
-def reversal(rows: pd.DataFrame, twins: pd.DataFrame) -> Figure:
-    """Over the time there and back: distance from the start; beside it how fast twins part."""
+def reversal(rows: pd.DataFrame) -> Figure:
+    """Over the time there and back: distance from the start."""
     page, axes = figure(width=5.8, height=4.2)
     for number, (name, label) in enumerate(STEPS.items()):
         some = rows[rows["integrator"] == name].groupby("time")["apart"].mean()
         axes.plot(some.index, some.clip(lower=1e-17), **look(number), label=label)
-    axes.plot(twins["time"], twins["apart"], **look(3), label="molecules beside smooth particles")
     axes.axhline(0.1, color="grey", linewidth=0.6)
     axes.set(yscale="log", ylim=(3e-18, 30), xlabel=r"time $t/\sigma(m/\epsilon)^{1/2}$",
              ylabel=r"rms distance / $\sigma$")
@@ -111,4 +110,4 @@ def shown(variant: str) -> bool:
 FIGURES = Drawings(
     Drawing("yield", ("driven", "laws", "foretold"), stress),
     Drawing("freezing", ("freezing", "freezing_limits"), freezing),
-    Drawing("reversal", ("reversal", "twins"), reversal))
+    Drawing("reversal", ("reversal",), reversal))

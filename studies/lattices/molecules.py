@@ -1,25 +1,22 @@
-"""Crowds of particles: do they pair; are they molecules, whose paths run back?    [KHP95, Secs III, VI]
+"""Particles that are molecules: do their paths run back?    [KHP95, Sec. III]
 
-`Fate` leaves a gas to rest. Inviscid particles with P/rho^2 = 1 obey dv/dt = -sum_j m 2 grad w: Newton's
-equations with the potential 2 m^2 w of a pair. `Twins` follows one path by both kinds of sums: they must
-agree until round-off has grown. `Reversal` turns the velocities: the path comes back, to what truncation or
-round-off makes of it, and bit by bit if places and velocities are whole numbers.
+Inviscid particles with P/rho^2 = 1 obey dv/dt = -sum_j m 2 grad w: Newton's equations with the potential 2
+m^2 w of a pair. `Reversal` turns the velocities: the path comes back, to what truncation or round-off makes
+of it, and bit by bit if places and velocities are whole numbers.
 """
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from scipy.spatial import cKDTree
 
-from continuum.fluid import ConstEta, VanDerWaals
+from continuum.fluid import VanDerWaals
 from particles.integrators import RK4
 from particles.limits import step_limit
 from particles.run import STUDIES, Plan, run
 from particles.smooth.spam import Spam
 from particles.threads import Threads
 from particles.walls.periodic import wrap
-from particles.weights import value_and_slope
 from studies.build.names import START_JITTER
 from studies.build.spam import FRICTIONLESS, at_rest, fluid
 from studies.kit.case import Case, Outcome, Report
@@ -37,41 +34,6 @@ def crowd(side: int, seed: int, e: float, speed: float) -> np.ndarray:
     state = at_rest(x + rng.uniform(-START_JITTER, START_JITTER, x.shape), e)
     state[2:4] = speed*rng.standard_normal((2, len(x)))
     return state
-
-
-# --- left alone -----------------------------------------------------------------------------------
-
-SIDE = 16               # particles along each side
-LAW = ConstEta(0.5, 0.5)
-TIME = 300.0            # 20 times L/c
-PARTNER = 0.5           # spacings within which a neighbour shares a site: sites of one are 1.07 apart
-
-
-@dataclass(frozen=True, kw_only=True)
-class Fate(Case):
-    """A viscous, conducting ideal gas in a periodic square, from velocities that friction takes away."""
-    weight: Any
-    h: float
-    seed: int = 1
-
-    def run(self, report: Report, folder: Path) -> Outcome:
-        method = fluid(self.weight.of(h=self.h), (float(SIDE), float(SIDE)), law=LAW)
-        dt = STUDIES*step_limit(method, 1.0)
-        start, plan = crowd(SIDE, self.seed, 1.0, 0.3), Plan(dt=dt, steps=round(TIME/dt))
-        end = run(method, start, plan, report).state
-        x = method.fields(end).x
-        shared = float(np.mean(partners(x, method.box) > 0))
-        return Outcome({"fates": [
-            {"weight": self.weight.__name__, "h": self.h, "seed": self.seed, "shared": shared}]})
-
-
-def partners(x: np.ndarray, box: tuple[float, float]) -> np.ndarray:
-    """(n,): other particles within half a spacing, of places x (n, 2) in a periodic box."""
-    at = np.mod(x, box) % box           # a second time: scipy takes no place at the end of the box
-    return cKDTree(at, boxsize=np.array(box)).query_ball_point(at, PARTNER, return_length=True) - 1
-
-
-# --- molecules ------------------------------------------------------------------------------------
 
 
 def whole(q: np.ndarray) -> np.ndarray:
@@ -126,56 +88,6 @@ def distance(one: np.ndarray, other: np.ndarray, side: float) -> float:
 def as_fluid(integrator: type, weight: Any, side: float) -> Spam:
     """The fluid that is one of molecules, in a periodic square."""
     return replace(fluid(weight, (side, side), RHO_SQUARED, FRICTIONLESS), integrator=integrator)
-
-
-class Molecules:
-    """dv/dt = -sum_j 2 grad w in a periodic square, by sums over all pairs."""
-
-    def __init__(self, weight: Any, side: float):
-        self.weight, self.side = weight, side
-
-    def rates(self, state: np.ndarray, out: np.ndarray) -> None:
-        """d(x, y, vx, vy, e)/dt."""
-        d = state[:2, :, None] - state[:2, None, :]
-        d -= self.side*np.round(d/self.side)
-        r = np.hypot(*d)
-        near = (r < self.weight.h) & (r > 0)
-        slope = np.zeros_like(r)
-        slope[near] = [value_and_slope(self.weight, one)[1] for one in r[near]]
-        out[:2] = state[2:4]
-        out[2:4] = -2*np.sum(slope*d, axis=2)
-        out[4] = 0.0
-
-
-@dataclass(frozen=True, kw_only=True)
-class Twins(Case):
-    """The same path by the sums of smooth particles and as molecules: how far apart after some time."""
-    weight: Any
-    side: int = 8
-    every: float = 2.0
-    samples: int = 15
-    seed: int = 1
-
-    @property
-    def cost(self) -> float:
-        return 30.0
-
-    def run(self, report: Report, folder: Path) -> Outcome:
-        weight, side = self.weight.of(h=RANGE), float(self.side)
-        method, molecules = as_fluid(RK4, weight, side), Molecules(weight, side)
-        smooth, rows = whole_crowd(self.side, self.seed), []
-        steps = round(self.every/(STUDIES*step_limit(method, ENERGY)))
-        plan, twin = Plan(dt=self.every/steps, steps=steps), smooth.copy()
-        integrator = RK4(twin.shape, Threads(1))
-        for number in range(1, self.samples + 1):
-            report(number/self.samples)
-            smooth = run(method, smooth, plan).by_id()
-            for _ in range(steps):
-                integrator.step(molecules, twin, plan.dt)
-            wrap(method.walls, twin)
-            rows.append({"weight": self.weight.__name__, "seed": self.seed, "time": number*self.every,
-                         "apart": distance(smooth, twin, self.side)})
-        return Outcome({"twins": rows})
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,19 +1,7 @@
 """What RR98 says of noise and of its steps, judged    [RR98 Eqs 20-25, 40-44, Sec. III B]"""
 from typing import Any
 
-from studies.kit.ask import (
-    Value,
-    farthest,
-    farthest_per,
-    first,
-    largest,
-    largest_per,
-    last,
-    log,
-    one,
-    power,
-    spread,
-)
+from studies.kit.ask import Value, farthest_per, first, largest, largest_per, one, power, spread
 from studies.kit.claim import Claim
 
 MOMENTA = ("stress", "friction", "stress+friction")
@@ -21,13 +9,9 @@ ENERGIES = ("heat", "conduction", "heat+conduction")
 OBEY = "must obey discretized versions of the fluctuation-dissipation expressions"
 INCLUDES = "useful to include the fluctuations"
 ROUND_OFF = "round-off of sums of some ten terms, solves with condition 1e3 in some makers"
-HALF_PER_CENT = "half a per cent: the size that an experiment resolves"
 PERCENT = "1 % is what the paper wants of a step of good integrators"
 RIGHT: dict[str, Any] = {"expect": 1, "within": 0.05,
                          "because": "5 %: waves of 32 spacings on a line are 1/cos^2(0.1) = 1.01"}
-#: samples of the slowest mode within a tenth of onset, by 1 - Ra/Ra_c
-SLOWEST: dict[str, Any] = {"such": "strength <= 0.1", "by": "strength", "need": 2,
-                           "flow": "layer", "field": "slowest"}
 #: integrators of dissipative particles
 GOOD = {"GrootWarren": ("groot-warren", "Groot-Warren with lambda = 1/2"),
         "GrootWarren65": ("groot-warren", "Groot-Warren with lambda = 0.65"),
@@ -39,14 +23,6 @@ GOOD = {"GrootWarren": ("groot-warren", "Groot-Warren with lambda = 1/2"),
 def longest(equation: int, term: str, reading: str, d: int = 1, h: float = 1.5) -> Value:
     """Variance of printed noise over its due, longest wave."""
     return first("printed", "ratio", by="wavenumber", equation=equation, term=term, reading=reading, d=d, h=h)
-
-
-def sampled_power() -> Value:
-    """Power of 1 - Ra/Ra_c in the variance of the slowest mode, first and last sample within a tenth."""
-    variance: dict[str, Any] = {"value": "ratio*exact", "err": "ratio_err*exact", **SLOWEST}
-    nearest, other = first("sampled", **variance), last("sampled", **variance)
-    span = log(first("sampled", "strength", **SLOWEST)/last("sampled", "strength", **SLOWEST))
-    return log(nearest/other)/span
 
 
 def formula(name: str) -> Value:
@@ -116,25 +92,6 @@ CLAIMS = (
           because="0.02: other modes add a constant, of 1 % at 0.05 below onset",
           statement="fluctuations of a layer heated from below grow as 1/(Ra_c - Ra) on the way to onset, "
                     "Ra_c by eigenvalues: power of 1 - Ra/Ra_c in <w w> less equilibrium, 0.005 to 0.05"),
-    Claim(id="own-fluct-eq25-onset-seen", source="RR98 Eqs 20-25", at_least=5,
-          value=last("sampled", "ratio*exact", by="exact", err="ratio_err*exact", flow="layer", field="w"),
-          because="equilibrium is 1, rows of the Lyapunov solve add up to 10",
-          statement="and what is about to convect: sampled variance of the velocity across a layer of 8 "
-                    "rows, 2 % below onset, over that at rest"),
-    Claim(id="own-fluct-eq25-onset-sampled", source="RR98 Eqs 20-25",
-          expect=-1, within=0.15,
-          value=sampled_power(),
-          because="0.15: samples reach 0.05, the next power of the distance from onset adds 0.04",
-          statement="sampled fluctuations of the slowest mode grow as 1/(Ra_c - Ra) on the way to onset: "
-                    "power, from 10 % to 2 % below"),
-    Claim(id="own-fluct-equipartition", source="RR98 Eqs 22, 24", expect=1, within=0.005,
-          value=one("modes", "ratio", field="all"), because=HALF_PER_CENT,
-          statement="sampled, all degrees of freedom of a gas at rest together have their variance: mean "
-                    "ratio, jittered points"),
-    Claim(id="own-fluct-equipartition-3d", source="RR98 Eqs 22, 24", expect=1, within=0.005,
-          value=farthest("cubes", "ratio", field="all"), because=HALF_PER_CENT,
-          statement="sampled in 3D, all degrees of freedom of a gas at rest together have their variance: "
-                    "mean ratio, farther from 1 of a lattice and jittered points"),
     Claim(id="rr98-fluct-eq40-euler", source="RR98 Eq. 40", printed=INCLUDES, expect=1, within=0.01,
           because="1 %",
           headline=True, evidence="noise/steps.png",

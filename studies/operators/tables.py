@@ -38,9 +38,6 @@ FRICTION = Table.of("friction", "d form h", "eta zeta eta_predicted zeta_predict
                     means={"form": ("A and B as functions of r", ""), "eta": ("viscosity", "")})
 
 POINTS = "maker points d"
-INVARIANCE = Table.of("invariance", f"{POINTS} transport", "seed lost",
-                      about="A random state: what its sums of mass, momentum and energy lose.",
-                      means={"lost": ("largest change of a sum over the sum of its sizes", "")})
 ONE_KERNEL = Table.of("one_kernel", f"{POINTS} seed", "lost",
                       about="A random state without the second kernel of Eq. 14.",
                       means={"lost": ("momentum lost over the sum of its sizes", "")})
@@ -75,8 +72,8 @@ SHEAR_MEANS = Table.of("shear_means", "flow points rows time", "seeds rms rms_er
 SHEAR_ORDERS = Table.of("shear_orders", "flow points time norm", "order order_err", means=TIME,
                         about="How these errors fall with the rows, all runs in one fit.")
 
-ALL = (CONTINUUM, SYMBOLS, LATTICE, EXPONENTIAL, NUMBERS, EQUATIONS, ORDERS, FRICTION, INVARIANCE, ONE_KERNEL,
-       GROWTH, GROWTH_MEANS, EULER, NESTED_GROWTH, WAVES, COEFFICIENTS, TRANSPORT_ORDERS, SHEAR, SHEAR_MEANS,
+ALL = (CONTINUUM, SYMBOLS, LATTICE, EXPONENTIAL, NUMBERS, EQUATIONS, ORDERS, FRICTION, ONE_KERNEL, GROWTH,
+       GROWTH_MEANS, EULER, NESTED_GROWTH, WAVES, COEFFICIENTS, TRANSPORT_ORDERS, SHEAR, SHEAR_MEANS,
        SHEAR_ORDERS)
 
 # --- what follows from them ---------------------------------------------------------------------------------
