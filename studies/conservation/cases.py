@@ -157,8 +157,8 @@ def paper() -> Iterator[Case]:
     yield from speeds((8, 16, 24, 32))
     yield from sliding((16, 24, 32, 48, 64))
     for fraction, every in ((0.1, 1), (0.3, 4)):
-        yield from drags(fraction, {"surface": SMOOTH, "surface-unfiltered": (24, 32, 48),
-                                    "frozen": SCATTERED[::every], "frozen-grown": SCATTERED[::every]})
+        yield from drags(fraction, {"surface": SMOOTH, "frozen": SCATTERED[::every],
+                                    "frozen-grown": SCATTERED[::every]})
 
 
 def cases(size: str) -> list[Case]:

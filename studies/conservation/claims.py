@@ -1,6 +1,6 @@
 """What RR98 says of sums, of moving points, of bodies, judged    [RR98 Eqs 34-41, 46-50, Secs III, IV]"""
 from functools import partial
-from math import inf, sqrt
+from math import inf
 from typing import Any
 
 from studies.conservation.sums import EVERYTHING
@@ -24,11 +24,6 @@ def kept(name: str, *schemes: str) -> Value:
 def changed(*modes: str) -> Value:
     """Largest change of any sum in runs of moving points."""
     return largest_of(*(largest("drift", name, scheme="motions", mode=modes) for name in SUMS))
-
-
-def last_tenth(variant: str) -> Value:
-    """What the drag changes in the last tenth of the time."""
-    return one("drag", "drag_err", variant=variant, fraction=0.1, rows=32)
 
 
 def drag_error(variant: str, fraction: float) -> Value:
@@ -93,16 +88,6 @@ MOVING = (
           statement="points that move with v under Eqs 34-36: speed of long sound over c, Wendland C2, h = "
                     "4 a",
           because=f"2 %: extrapolated from wavelengths of 24 and 32 a; {EXTRAPOLATED}"),
-    Claim(id="own-eq39-sound-factor", source="RR98 Eqs 34-36, 39", expect=sqrt(2), within=0.01,
-          value=one("long_sound", "speed", motion="literal", weight="WendlandC2"),
-          statement="volumes dV that stay while points move add 2 P grad(n dV) to the force: long sound of "
-                    "the literal motion is sqrt(1 + 2/gamma) c, Wendland C2, h = 4 a",
-          because=f"1 %: 0.3 % from sums over the lattice, and the next order in h/lambda; {EXTRAPOLATED}"),
-    Claim(id="own-eq39-sound-factor-lucy", source="RR98 Eqs 34-36, 39", expect=sqrt(2), within=0.01,
-          value=one("long_sound", "speed", motion="literal", weight="Lucy"),
-          statement="the factor of long sound in literal motion, sqrt(1 + 2/gamma), with Lucy's weight, h = "
-                    "3 a",
-          because="1 %, as for Wendland's; what the lattice sums of w'' miss stays however long the wave is"),
     Claim(id="rr98-eq39-conserves", source="RR98 Eqs 34-36, 39", printed="conserved", **STEPS,
           value=changed("literal, RK4", "literal, TwoStep"),
           statement="mass, momentum and energy stay while points move literally: largest relative drift "
@@ -192,11 +177,5 @@ BODIES = (
             because=LIMIT, value=one("drag_limits", "error", variant="surface", fraction=c),
             statement="points on the surface: drag extrapolated to infinitely fine points against print, "
                       f"relative, solid fraction {c:g}") for c, printed in ((0.1, "24.83"), (0.3, "102.90"))),
-    Claim(id="own-bodies-filter", source="RR98 Sec. IV", at_least=10,
-          because="ten times: no matter of chance",
-          value=last_tenth("surface-unfiltered")/last_tenth("surface"),
-          statement="without a filter of the density slow flow around a body creeps on: change of the drag "
-                    "in the last tenth of the time over that with the filter, points on the surface, 32 "
-                    "rows"),
 )
 CLAIMS = (*FIXED, *MOVING, *BODIES)

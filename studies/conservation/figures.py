@@ -11,8 +11,8 @@ from studies.kit.figure import Drawing, Drawings, below, errorbar, figure
 #: RR98's motions, by their names, with their equations
 MOTIONS = {"literal": "moving-literal (39-41)", "convective": "moving-convective (46-48)",
            "carried": "moving-carried (46-48)", "constant-mass": "moving-constant-mass (49)"}
-BODIES = {"surface": "points on the surface", "surface-unfiltered": "the same without filter",
-          "frozen": "frozen lattice points", "frozen-grown": "frozen, half a spacing more"}
+BODIES = {"surface": "points on the surface", "frozen": "frozen lattice points",
+          "frozen-grown": "frozen, half a spacing more"}
 
 
 def bars(axes: Axes, rows: pd.DataFrame, x: str, y: str, **more: Any) -> None:

@@ -58,7 +58,6 @@ ALL = (
 LONG = (16, 24, 32)     # wavelengths from which sound is extrapolated
 LEAST = 3               # sizes of a limit
 WIDE = 4.0              # spacings: a circle of a smaller radius is too coarse a polygon
-SMOOTH = ("surface", "surface-unfiltered")      # drags that err as rows^-2; staircases as 1/rows
 DERIVED = Iterator[dict[str, Any]]
 
 
@@ -98,7 +97,7 @@ def drag_limits(drags: pd.DataFrame) -> DERIVED:
     for (variant, fraction), group in drags[drags["radius"] > WIDE].groupby(["variant", "fraction"]):
         if len(group) >= LEAST:
             rows = group["rows"].to_numpy(float)
-            spacing = rows**-2 if variant in SMOOTH else 1/rows
+            spacing = rows**-2 if variant == "surface" else 1/rows      # of a true surface, of staircases
             unsteady = Measured(0.0, group["drag_err"].max())
             limit = fits.line(spacing, group["drag"].to_numpy()).intercept + unsteady
             published = Measured(*group[["published", "published_err"]].iloc[0])

@@ -23,7 +23,7 @@ from studies.cost import rolls
 from studies.cost.contestants import ExactFlow
 from studies.cost.race import Entry, Race, SolverRace, by_pypde
 from studies.cost.rolls import LOWER_RA, HeatedLayer
-from studies.cost.seconds import Flock, Resident, StepTime, TwoThreads, Web
+from studies.cost.seconds import Flock, StepTime, TwoThreads, Web
 from studies.cost.tables import CARRIED
 from studies.kit.case import Case
 
@@ -74,7 +74,7 @@ TRIANGLES = variants(CARRIED)
 PARTICLES = variants("spam", "spam-monaghan", "spam-wendland-c2")
 #: as disordered as moving points start
 SHAKEN = {"fixed-jittered-0.2-plates": variant("fixed-jittered-plates")._replace(size=START_JITTER)}
-#: in growth and memory
+#: in growth
 MOVERS, STAYERS = variants("spam", CARRIED), variants("fixed-lattice")
 FAR_OFF = 16, *rungs(32, 96)        # where particles err alike at any resolution
 
@@ -143,14 +143,12 @@ def cases(size: str) -> list[Case]:
 
 
 def paper() -> Iterator[Case]:
-    """All; two threads from 20 000 points on, memory of a million."""
+    """All; two threads from 20 000 points on."""
     for scene, contest in CONTESTS.items():
         yield from contest.cases(scene)
     yield from growth(ROWS)
     for (name, chosen), rows in product(MOVERS.items(), (100, 224)):
         yield TwoThreads(name=name, variant=chosen, rows=rows)
-    for name, chosen in (TRIANGLES | STAYERS).items():
-        yield Resident(name=name, variant=chosen, rows=ROWS[-1], a_point=3e-5)
 
 
 def quick() -> Iterator[Case]:
@@ -158,7 +156,6 @@ def quick() -> Iterator[Case]:
     for scene, (flow, names, resolutions) in QUICK.items():
         yield from CONTESTS[scene]._replace(flow=flow).cases(scene, names, resolutions, short=FAST)
     yield from growth((16, 22, 32), short=FAST)
-    yield Resident(name=CARRIED, variant=TRIANGLES[CARRIED], rows=16)
 
 
 def growth(sizes: tuple[int, ...], **more: Any) -> Iterator[StepTime]:

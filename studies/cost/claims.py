@@ -81,9 +81,6 @@ CLAIMS = (
           statement=f"a step of {POINTS} takes at most 200 ns a point at 20 000 points, flips and geometry "
                     "included [ns]"),
     two("carried", CARRIED, 1.6, ASKED, POINTS),
-    Claim(id="own-speed-carried-memory", source="RR98 Sec. III", at_most=1, because=ASKED,
-          value=one("memory", "resident/1e9", "points >= 1e6", err="0", method=CARRIED),
-          statement=f"a million {POINTS} need less than 1 GB: resident size of their process in a step [GB]"),
     Claim(id="own-speed-fixed-points", source="RR98 Sec. III", at_most=2,
           value=CHEAPEST/seconds(GRID, K), because="a factor of 2 was asked for before anything was measured",
           statement="fixed points are no dearer than a grid: CPU seconds, setting up included, to the "

@@ -1,10 +1,7 @@
 """Seconds of a step: how they are measured; how seconds grow with the number of points."""
 from collections.abc import Callable, Sequence
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
-from multiprocessing import get_context
 from pathlib import Path
-from resource import RUSAGE_SELF, getpagesize, getrusage
 from time import perf_counter, process_time
 from typing import Any, ClassVar, NamedTuple
 
@@ -198,26 +195,3 @@ class TwoThreads(StepTime):
         rows = [self.row(one, median(laps), threads, "wall")
                 for threads, laps in ((1, alone), (2, together))]
         return Outcome({"growth": rows})
-
-
-def resident(variant: Any, rows: int) -> dict[str, int]:
-    """Bytes of this process in memory, before, in a step, and at most, of so many points (Linux)."""
-    def now(*_: Any) -> int:
-        return getpagesize()*int(Path("/proc/self/statm").read_text().split()[1])
-    before = now()
-    flock = Flock.of(variant, rows)
-    done = run(flock.method, flock.start, Plan(dt=flock.dt, steps=1, every=1, series={"resident": now}))
-    return {"points": flock.start.shape[1], "before": before, "resident": round(done.series["resident"][-1]),
-            "peak": 1024*getrusage(RUSAGE_SELF).ru_maxrss}
-
-
-@dataclass(frozen=True, kw_only=True)
-class Resident(StepTime):
-    """Memory of a process that does nothing else."""
-    kind: type[Flock] = Flock
-    what: ClassVar[str] = "memory"
-
-    def run(self, report: Report, folder: Path) -> Outcome:
-        with ProcessPoolExecutor(1, get_context("spawn")) as fresh:
-            sizes = fresh.submit(resident, self.variant, self.rows).result()
-        return Outcome({"memory": [{"method": self.name, **sizes}]})

@@ -47,10 +47,6 @@ TABLES = (
              means={"points": ("number of points over that of the rival with the same error", "")}),
     Table.of("growth", "method points threads clock", "step_s step_s_err", means=COUNT,
              about="Seconds of a step by number of particles."),
-    Table.of("memory", "method points", "before resident peak", means=COUNT | {
-        "before": ("bytes of the process before any point is made", "B"),
-        "resident": ("the same in its steps", "B"), "peak": ("at most, setting up included", "B")},
-             about="Resident memory of a process by number of particles."),
     Table.of("growth_laws", "method what least", "most value value_err", about="How these seconds grow.",
              means={"what": ("exponent: d ln(seconds of a step)/d ln(particles); two threads: how much "
                              "faster than one", "")}),
