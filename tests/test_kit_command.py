@@ -109,7 +109,7 @@ def test_only_runs_what_has_the_text_in_its_label_and_leaves_other_rows_as_they_
     toy = tmp_path/"results/toy"
     code, text = typed("--size", "fine", "--only", "quartic")
     assert code == 0 and list(read(toy/"cubes.csv").x) == [7], "Quartic, whatever the capitals"
-    assert "python -m studies.toy --size fine --only quartic" in (toy/"cubes.csv").read_text()
+    assert "python -m studies toy --size fine --only quartic" in (toy/"cubes.csv").read_text()
     assert (toy/"cubes.png").exists() and "holds" in text
 
     (toy/"cubes.csv").unlink(), (toy/"halves.csv").unlink()

@@ -1,4 +1,4 @@
-"""Lattices against the sums that run: motions that grow, freezing; molecules; sound."""
+"""Lattices against the sums that run: motions that grow, freezing, sound."""
 from dataclasses import replace
 
 import numpy as np
@@ -7,14 +7,12 @@ import pytest
 
 from continuum.fluid import IdealGas, VanDerWaals, pressure
 from particles.limits import lattice_sums
-from particles.smooth.spam import Spam
 from particles.threads import Threads
-from particles.weights import Lucy, Monaghan, WendlandC2, value_and_slope
+from particles.weights import Lucy, Monaghan, WendlandC2
 from studies.build.spam import at_rest, fluid
 from studies.lattices.claims import NO_PRESSURE, SPINODAL
 from studies.lattices.crystals import LATTICES, Crystal, LatticeGrowth, Speed, growth, sums
 from studies.lattices.frozen_flow import criteria, neighbours
-from studies.lattices.molecules import METHODS, RHO_SQUARED, Reversal, as_fluid, whole_crowd
 
 HEXAGONAL, SQUARE = LATTICES["hexagonal"], LATTICES["square"]
 WEIGHTS = (Lucy, Monaghan, WendlandC2)
@@ -103,34 +101,6 @@ def test_criteria_are_the_printed_inequalities():
     printed = criteria(Lucy, 0.002)
     assert printed["barrier"]*2*5/(9*np.pi) == pytest.approx(2*0.002, rel=1e-12)
     assert printed["melting"]*2*0.010452 == pytest.approx(2*0.002, rel=1e-3)
-
-
-# --- molecules --------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("weight", [Lucy, Monaghan])
-def test_pressure_of_the_square_of_the_density_makes_molecules(weight):
-    """dv/dt = -sum_j 2 grad w, by sums over all pairs."""
-    state, kernel = whole_crowd(8, 3), weight.of(h=3.0)
-    sums, ids = as_fluid(Spam, kernel, 8.0).start(64, Threads(1)), np.arange(64)
-    ordered, out = state.copy(), np.empty_like(state)
-    sums.around.relist(ordered, ids, 0.0)
-    sums.rates(ordered, out)
-    d = state[:2, :, None] - state[:2, None, :]
-    d -= 8*np.round(d/8)
-    slopes = [value_and_slope(kernel, r)[1] if 0 < r < 3 else 0.0 for r in np.hypot(*d).ravel()]
-    expected = -2*np.sum(np.reshape(slopes, (64, 64))*d, axis=2)
-    np.testing.assert_allclose(out[2:4, np.argsort(ids)], expected, atol=1e-13)
-    assert pressure(RHO_SQUARED, 1.7, 900.0) == 1.7**2
-
-
-def test_paths_come_back_as_their_steps_let_them():
-    found = {name: rows(Reversal(name=name, integrator=integrator, weight=Lucy, times=(3.0,), side=8),
-                        "reversal")[0]
-             for name, integrator in METHODS.items()}
-    assert found["whole numbers"]["equal"] == 1 and found["whole numbers"]["apart"] == 0
-    assert 0 < found["leapfrog"]["apart"] < 1e-13 and found["leapfrog"]["equal"] < 1
-    assert 1e-6 < found["rk4"]["apart"] < 0.1
 
 
 # --- sound ------------------------------------------------------------------------------------------

@@ -2,7 +2,6 @@
 
 taylor-green   a vortex of Mach 0.05 and Re 100 that decays by e; against the gas of that Mach number
 sound          a wave of small amplitude for two periods
-conduction, couette   between plates, from smooth starts; nothing depends on x
 convection     Rayleigh-Benard at Ra = 10 000, and 5000, from KHP95's rolls
 
 Every method runs at rising resolutions, each at the longest step that is good enough beside the error of its
@@ -13,10 +12,8 @@ from collections.abc import Callable, Collection, Iterator, Mapping
 from itertools import product
 from typing import Any, NamedTuple
 
-from continuum.exact.plates import FLOWS
-from studies.build import variant, variants
-from studies.build.names import START_JITTER
-from studies.build.scenes import BetweenPlates, Sound, TaylorGreen
+from studies.build import variants
+from studies.build.scenes import Sound, TaylorGreen
 from studies.build.spam import OF_LIMIT
 from studies.cost import contestants as of
 from studies.cost import rolls
@@ -72,21 +69,8 @@ class Contest(NamedTuple):
 LATTICES = variants("fixed-lattice-h1.2", "fixed-lattice", "fixed-lattice-h3")
 TRIANGLES = variants(CARRIED)
 PARTICLES = variants("spam", "spam-monaghan", "spam-wendland-c2")
-#: as disordered as moving points start
-SHAKEN = {"fixed-jittered-0.2-plates": variant("fixed-jittered-plates")._replace(size=START_JITTER)}
 #: in growth
 MOVERS, STAYERS = variants("spam", CARRIED), variants("fixed-lattice")
-FAR_OFF = 16, *rungs(32, 96)        # where particles err alike at any resolution
-
-
-def between(name: str, *more: Team) -> Contest:
-    """Plates."""
-    return Contest(ExactFlow(BetweenPlates(flow=FLOWS[name], L=16)), (
-        Team(variants("grid"), of.of_mean_one, 8.7e-6, rungs(8, 96)),
-        Team(LATTICES, of.points, 1.6e-5, rungs(8, 96)),
-        Team(SHAKEN, of.points, 1.6e-5, rungs(8, 64), THREE),
-        Team(TRIANGLES, of.points, 1.6e-5, rungs(8, 64), THREE),
-        Team(PARTICLES, of.restless, 0.0, FAR_OFF, first=0.7), *more))
 
 
 #: scene -> who takes part: a new method is a line, a new scene an entry; at half the Rayleigh number those
@@ -109,10 +93,6 @@ CONTESTS = {
         Team(variants("moving"), of.on_lattice, 3.4e-5, rungs(16, 192)),
         Team(PARTICLES, of.particles, 8.7e-5, rungs(16, 64)),
         Team(variants("grid"), of.on_grid, 3.8e-6, rungs(16, 256)))),
-    # plates of moving points do not slide
-    "conduction": between("conduction",
-                          Team(variants("moving"), of.points, 1.6e-5, rungs(8, 64), THREE)),
-    "couette": between("couette"),
     "convection": Contest(HeatedLayer(), (
         Team(variants("grid"), rolls.on_grid, 3.5e-5, (8, 12, 16, 20, 24, 32, 40, 48, 64, 88)),
         Team(LATTICES, rolls.on_points, 2.6e-4, rungs(12, 48)),
@@ -131,8 +111,6 @@ CONTESTS = {
 QUICK: dict[str, tuple[Any, tuple[str, ...], tuple[int, ...]]] = {
     "taylor-green": (ExactFlow(TaylorGreen(L=16, mach=0.2)), ("fixed-lattice-h1.2", "mac"), (16, 20, 24)),
     "sound": (CONTESTS["sound"].flow, ("fixed-lattice-h1.2",), (16, 24, 32)),
-    "conduction": (CONTESTS["conduction"].flow, ("grid", "fixed-lattice"), (8, 12, 16)),
-    "couette": (CONTESTS["couette"].flow, ("grid", "fixed-lattice"), (8, 12, 16)),
     "convection": (HeatedLayer(rows=(8, 10, 12)), ("grid", "fixed-lattice"), (8, 10, 12)),
 }
 

@@ -8,17 +8,15 @@ import numpy as np
 from continuum.boussinesq import BoussinesqCase, Box, BoxEdges, End, State
 from continuum.boussinesq.mac import mac
 from continuum.boussinesq.projection import Projection
-from continuum.exact import plates
 from continuum.exact.vortex import DECAYS, RE, solved
-from continuum.gas.ghosts import RHO
 from particles.fields import Fields
 from particles.integral.points import lattice
 from particles.observe import fields_at
 from particles.smooth.spam import Spam
 from studies.build.answers import answer, of_one_mass, with_rows
-from studies.build.scenes import BetweenPlates, TaylorGreen
+from studies.build.scenes import TaylorGreen
 from studies.build.setting import Ready
-from studies.cost.problem import Judge, Problem, Residuals, Result, of_grid, of_method, relative, rms
+from studies.cost.problem import Judge, Problem, Residuals, Result, of_grid, of_method, relative
 
 #: uncertainty of the Fourier sums by Mach number, from the study ordering: velocities of 33 against 29 points
 KNOWN = {0.05: 1.4e-6, 0.2: 2.9e-5}
@@ -77,15 +75,6 @@ def _(scene: TaylorGreen) -> float:
     return KNOWN[scene.mach]
 
 
-@uncertainty.register
-def _(scene: BetweenPlates) -> float:
-    """What fewer Chebyshev points make of the answer."""
-    s = np.linspace(0, 1, 200)
-    row = 2 if scene.flow.U else 3
-    fine, coarse = plates.fields(scene.flow, s)[row], plates.fields(scene.flow, s, plates.COARSER)[row]
-    return rms(fine - coarse)/float(np.std(fine))
-
-
 # --- points and particles -----------------------------------------------------------------------------------
 
 def points(flow: ExactFlow, method: Any, size: int, seed: int) -> Problem:
@@ -136,13 +125,8 @@ def of_mass(scene: Any, method: Any, seed: int) -> Ready:
     return method.ready(scene, seed, x=x, fields=fields)  # type: ignore[no-any-return]
 
 
-def restless(flow: ExactFlow, method: Any, size: int, seed: int) -> Problem:
-    """The same where two steps give two flows."""
-    return particles(flow, method, size, seed)._replace(chaotic=True)
-
-
 def trembling(flow: ExactFlow, method: Any, size: int, seed: int) -> Problem:
-    """The same where they tremble: the smoothed field counts    [KHP95, Sec. VI]"""
+    """The same where they tremble, so that two steps give two flows: the smoothed field counts."""
     scene = flow.scene(size)
     ready = of_mass(scene, method, seed)
     judge = flow.judge(scene, partial(smoothed, ready.method))
@@ -167,13 +151,6 @@ def on_grid(flow: ExactFlow, form: Any, size: int, seed: int, first: np.ndarray 
     scene = flow.scene(size)
     ready = form.ready(scene, first=first)
     return of_grid(ready, scene.time, flow.judge(scene, ready.method.fields), known=flow.known)
-
-
-def of_mean_one(flow: ExactFlow, form: Any, size: int, seed: int) -> Problem:
-    """The same from densities whose mean over cells is 1."""
-    first = form.ready(flow.scene(size)).start
-    first[RHO] /= first[RHO, 1:-1, 1:-1].mean()
-    return on_grid(flow, form, size, seed, first)
 
 
 def on_mac(flow: ExactFlow, form: None, size: int, seed: int) -> Problem:

@@ -16,8 +16,6 @@ FIELD = {
     "convection": "K",
     "taylor-green": "velocity",
     "sound": "velocity",
-    "conduction": "temperature",
-    "couette": "velocity",
 }
 LEVELS = (0.1, 0.03, 0.01, 0.001)
 LEAST = 3           # sizes of an exponent

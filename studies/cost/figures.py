@@ -14,9 +14,9 @@ from studies.kit.figure import LINES, Drawing, Drawings, figure
 #: scene, quantity, title of each panel
 PANELS = (
     ("convection", "K", "a smooth flow: K of convection, Ra 10 000"),
+    ("convection", "velocity", "the same flow: velocity"),
     ("taylor-green", "velocity", "a vortex: velocity"),
     ("sound", "velocity", "a sound wave: velocity"),
-    ("conduction", "temperature", "heat conduction: temperature"),
 )
 WORST = 10.0        # relative error that is drawn: ten times the answer
 #: of error, at which members of a family are compared: the first that one of them reaches

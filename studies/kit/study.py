@@ -1,4 +1,4 @@
-"""A study and its command line: python -m studies.NAME [run|figures|claims]."""
+"""A study and its command line: python -m studies NAME [run|figures|claims]."""
 import argparse
 import math
 import os
@@ -9,6 +9,7 @@ import textwrap
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
+from importlib import import_module
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -16,6 +17,7 @@ from studies.kit.case import Case
 from studies.kit.claim import Claim, judge, put_claims
 from studies.kit.csvfile import OtherTable, locked
 from studies.kit.figure import Drawings, save
+from studies.kit.key import ROOT
 from studies.kit.store import RESULTS, CannotRun, results
 from studies.kit.sweep import GO_ON, CasesFailed, NoSuchCase, Sweep, labelled, load
 from studies.kit.table import SIZES, Row, Rows, Table, Tables, check_once
@@ -99,6 +101,18 @@ class Study:
         return [path for path in paths if path.exists()]
 
 
+def names() -> list[str]:
+    """Of all studies: folders whose `__init__.py` makes a STUDY."""
+    files = sorted((ROOT/"studies").glob("*/__init__.py"))
+    return [path.parent.name for path in files if "\nSTUDY = " in path.read_text()]
+
+
+def study_of(name: str) -> Study:
+    """The study of this name."""
+    study: Study = import_module(f"studies.{name}").STUDY
+    return study
+
+
 def main(study: Study, arguments: Sequence[str] | None = None) -> None:
     """The command line of a study; ends with 0, or 1 (failed), 2 (not understood), 130 (interrupted)."""
     words = parse(study, arguments)
@@ -116,7 +130,7 @@ def main(study: Study, arguments: Sequence[str] | None = None) -> None:
 
 def parse(study: Study, arguments: Sequence[str] | None) -> argparse.Namespace:
     """Command, size (default: SIZE of the environment, else paper), where it runs, folder, which cases."""
-    parser = argparse.ArgumentParser(prog=f"python -m studies.{study.name}", description=study.question)
+    parser = argparse.ArgumentParser(prog=f"python -m studies {study.name}", description=study.question)
     add = parser.add_argument
     size = os.environ.get("SIZE") or "paper"
     scheduler = os.environ.get("SCHEDULER") or ""

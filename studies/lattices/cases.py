@@ -12,7 +12,6 @@ from studies.lattices.crystals import LATTICES, Crystal, LatticeGrowth, Onset, S
 from studies.lattices.frozen_flow import Freezing
 from studies.lattices.loss import TABLES as LOSS
 from studies.lattices.loss import Thickened
-from studies.lattices.molecules import METHODS, Reversal
 from studies.lattices.stirred import PLATES, SHEARED, Stirred
 
 WEIGHTS: tuple[type[Weight], ...] = (Lucy, Monaghan, WendlandC2)
@@ -47,7 +46,6 @@ def quick() -> Iterator[Case]:
     """A few of each kind."""
     yield from list(growth())[::5]
     yield from list(onsets())[::9]
-    yield from molecules((5.0, 20.0), (1,))
     yield from speeds()
     for U, variant in product((0.05, 0.1, 0.2), ("printed", "less-static-50")):
         yield Stirred(variant=VARIANTS[variant], rows=25, U=U, time=3.0)
@@ -61,7 +59,6 @@ def paper() -> Iterator[Case]:
     yield from growth()
     yield from onsets()
     yield from freezing()
-    yield from molecules((5.0, 10.0, 20.0, 40.0, 60.0, 80.0, 100.0), (1, 2))
     yield from speeds()
     yield from (*stirred(), *aligned(), *ranges(), *(Thickened(ra=ra) for ra in RAYLEIGH))
 
@@ -90,12 +87,6 @@ def freezing() -> Iterator[Case]:
     for weight, seed in product((Lucy, Monaghan), SEEDS):
         yield Freezing(weight=weight, seed=seed)
     yield Freezing(weight=Lucy, step=0.25)
-
-
-def molecules(times: tuple[float, ...], seeds: tuple[int, ...]) -> Iterator[Case]:
-    """Paths of molecules, and back."""
-    for (name, integrator), seed in product(METHODS.items(), seeds):
-        yield Reversal(name=name, integrator=integrator, weight=Lucy, times=times, seed=seed)
 
 
 def speeds() -> Iterator[Case]:
@@ -169,9 +160,6 @@ FREEZING_LIMITS = Table.of("freezing_limits", "weight seed step", "measured meas
                            means=USUAL | {"measured": ("P at which K of the mean flow falls below a tenth",
                                                        "epsilon/a^2")},
                            about="The pressure at which that gas freezes.")
-REVERSAL = Table.of("reversal", "integrator weight seed time", "apart equal",
-                    about="A run there and back again.",
-                    means={"time": ("time there", "t0"), "apart": ("rms distance from the start", "a")})
 SPEEDS = Table.of("sound_speeds", "lattice weight", "speed", about="The longest waves along x on a lattice.",
                   means={"speed": ("speed of sound over the fluid's", "")})
 RUN = "variant h corrected rows seed"
@@ -200,4 +188,4 @@ DECAYS = Table.of(
            "predicted": ("the sum of the three beside it", ""), "symbol": ("as in driven", ""),
            "deviator": ("stress of the pressure sum over that of friction, mean over time", ""),
            "kinetic": ("the same of the noise", "")})
-TABLES = (GROWTH, ONSETS, FREEZING, FREEZING_LIMITS, REVERSAL, SPEEDS, DRIVEN, DECAYS, *LOSS)
+TABLES = (GROWTH, ONSETS, FREEZING, FREEZING_LIMITS, SPEEDS, DRIVEN, DECAYS, *LOSS)

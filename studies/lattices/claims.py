@@ -1,11 +1,11 @@
-"""What KHP95 say of smooth particles as lattices and molecules, what keeps them from convergence."""
+"""What KHP95 say of smooth particles as lattices, and what keeps them from convergence."""
 from itertools import product
 from math import hypot
 from typing import Any
 
 import numpy as np
 
-from studies.kit.ask import Value, farthest, largest, least, of, one, over_seeds, power, rows
+from studies.kit.ask import Value, farthest, largest, of, one, over_seeds, power, rows
 from studies.kit.claim import Claim
 from studies.kit.stats import CannotTell, Measured
 from studies.kit.stats import over_seeds as mean_of
@@ -117,14 +117,6 @@ FREEZING = (
                     "the flowing run next to the limit, Lucy, ideal gas, Ra 3000"),
 )
 
-MOLECULES = (
-    Claim(id="khp95-hard-reversal", headline=True, evidence="lattices/reversal.png",
-          source="KHP95 Sec. III", printed="exact reversibility", expect=1, within=0,
-          value=least("reversal", "equal", integrator="whole numbers"), because="exact is all of them",
-          statement="paths run back exactly when velocities turn: part of the coordinates that come back to "
-                    "the last bit, in whole numbers, times to 100"),
-)
-
 SOUND = (
     Claim(id="own-hard-sound-speed-square", source="KHP95 Sec. II", expect=1, within=0.01,
           value=farthest("sound_speeds", "speed", lattice="square"),
@@ -197,4 +189,4 @@ STRESS = (
                     "that a force holds over the exact one, Wendland C2, h = 8.5 a, 200 rows",
           because="2 %, a tenth of what a fixed range loses", evidence="lattices/yield.png"),
 )
-CLAIMS = (*LATTICES, *FREEZING, *MOLECULES, *SOUND, *STRESS)
+CLAIMS = (*LATTICES, *FREEZING, *SOUND, *STRESS)

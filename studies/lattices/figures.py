@@ -7,26 +7,6 @@ from studies.kit.figure import Drawing, Drawings, errorbar, figure, look, plain_
 from studies.kit.table import groups
 from studies.lattices.loss import fitted, projected
 
-STEPS = {"rk4": "Runge-Kutta 4, as printed", "leapfrog": "leapfrog",
-         "whole numbers": "leapfrog in whole numbers"}
-
-
-def reversal(rows: pd.DataFrame) -> Figure:
-    """Over the time there and back: distance from the start."""
-    page, axes = figure(width=5.8, height=4.2)
-    for number, (name, label) in enumerate(STEPS.items()):
-        some = rows[rows["integrator"] == name].groupby("time")["apart"].mean()
-        axes.plot(some.index, some.clip(lower=1e-17), **look(number), label=label)
-    axes.axhline(0.1, color="grey", linewidth=0.6)
-    axes.set(yscale="log", ylim=(3e-18, 30), xlabel=r"time $t/\sigma(m/\epsilon)^{1/2}$",
-             ylabel=r"rms distance / $\sigma$")
-    page.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=2)
-    page.suptitle(r"Do paths run back? $P\propto\rho^2$, Lucy's weight"
-                  "\nforward, velocities turned, and back; whole numbers: exactly 0, drawn at $10^{-17}$",
-                  fontsize=10)
-    return page
-
-
 #: part of the static pressure that the sums hold -> label
 HELD = {5.0: "five times", 2.0: "twice", 1.0: "as printed", 0.5: "half", 0.1: "a tenth"}
 SERIES = {"printed": "Lucy, h = 3 a", "fixed": "Wendland C2, h = 3 a",
@@ -80,6 +60,4 @@ def shown(variant: str) -> bool:
     return variant.startswith(("less", "more")) or variant in ("printed", "printed-fixed-rows", "walls-odd")
 
 
-FIGURES = Drawings(
-    Drawing("yield", ("driven", "laws", "foretold"), stress),
-    Drawing("reversal", ("reversal",), reversal))
+FIGURES = Drawings(Drawing("yield", ("driven", "laws", "foretold"), stress))
