@@ -1,30 +1,16 @@
 """Figures of the study conservation, from its tables."""
-from typing import Any
-
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from studies.kit.figure import Drawing, Drawings, below, errorbar, figure
+from studies.kit.figure import Drawing, Drawings, bars, below, figure, ticks
 
 #: RR98's motions, by their names, with their equations
 MOTIONS = {"literal": "moving-literal (39-41)", "convective": "moving-convective (46-48)",
            "carried": "moving-carried (46-48)", "constant-mass": "moving-constant-mass (49)"}
 BODIES = {"surface": "points on the surface", "frozen": "frozen lattice points",
           "frozen-grown": "frozen, half a spacing more"}
-
-
-def bars(axes: Axes, rows: pd.DataFrame, x: str, y: str, **more: Any) -> None:
-    """A column with its errors over another."""
-    if len(rows):
-        errorbar(axes, rows[x], rows[y], rows[f"{y}_err"], **more)
-
-
-def ticks(axes: Axes, values: Any) -> None:
-    """Marks of a logarithmic axis at these numbers only."""
-    axes.set_xticks(list(values), labels=[f"{value:g}" for value in values])
-    axes.minorticks_off()
 
 
 def speeds(patterns: pd.DataFrame, sound: pd.DataFrame) -> Figure:

@@ -119,10 +119,6 @@ CLAIMS = (
           expect=2, within=0.1, because="second order, as all sums here are on a lattice",
           statement="the error of K on a fixed lattice falls as the square of the spacing: order over 25 "
                     "to 80 rows, Ra 10000"),
-    Claim(id="own-rb-lattice-nu", source=SOURCE, value=error("fixed-lattice", transport="const-nu"),
-          at_most=0.003, because=GOAL,
-          statement="the equations on a fixed lattice converge also where viscosity and conductivity grow "
-                    "with density, constant nu and kappa: |K/K_grid - 1| at Ra 10 000, extrapolated"),
     Claim(id="rr98-eq51-rb-heat-10000", source="RR98 Eqs 36, 51", value=error("fixed-lattice-printed-heat"),
           printed=LIMIT, at_most=0.003, because=GOAL,
           statement="the work of forces along edges heats as the equations say: |K/K_grid - 1| at Ra "
