@@ -54,9 +54,8 @@ def errorbar(axes: Axes, x: Numbers, y: Numbers, err: Numbers, *, number: int = 
 
 def bars(axes: Axes, rows: pd.DataFrame, x: str, y: str, **more: Any) -> None:
     """A column with its errors over another."""
-    if len(rows):
-        rows = rows.sort_values(x)
-        errorbar(axes, rows[x], rows[y], rows[f"{y}_err"], **more)
+    rows = rows.sort_values(x)
+    errorbar(axes, rows[x], rows[y], rows[f"{y}_err"], **more)
 
 
 def plain_ticks(axes: Axes, values: Sequence[float]) -> None:
