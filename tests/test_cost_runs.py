@@ -12,7 +12,7 @@ from studies.cost.problem import HALVINGS, STRETCH, STRETCHES, WORTH, Problem, R
 from studies.cost.race import Race, SolverRace
 from studies.cost.rolls import END, LATE, OFTEN, SETTLED, Followed, HeatedLayer
 from studies.cost.seconds import Flock, TwoThreads, median, per_step
-from studies.cost.tables import GRID, LATTICE, MAC, NEAREST, PYPDE, WIDE
+from studies.cost.tables import GRID, MAC, NEAREST, PYPDE
 from studies.kit.timing import SPREAD_TO_ERR
 
 COLUMNS = {table.name: table.columns for table in tables.TABLES}
@@ -156,16 +156,6 @@ def test_errors_in_a_slow_vortex_are_those_of_friction(kind, name, share):
 def test_a_lattice_carries_sound_with_second_order_error():
     coarse, fine = (rows_of(Race, "sound", NEAREST, length)[1] for length in (32, 64))
     assert coarse/fine == pytest.approx(4, rel=0.15)
-
-
-@pytest.mark.parametrize("scene", ["conduction", "couette"])
-@pytest.mark.parametrize("name", [GRID, NEAREST, LATTICE, WIDE])
-def test_errors_between_plates_are_of_second_order(scene, name):
-    """Between 48 and 96 rows. 0.2: terms of fourth order are 16 % of the error of heat at 48, h = 3 a."""
-    entry = CONTESTS[scene].entry(name)
-    problems = (entry.make(entry.flow, entry.method, rows, 1) for rows in (48, 96))
-    coarse, fine = (rms(*problem.result(entry.first).residuals.values()) for problem in problems)
-    assert np.log2(coarse/fine) == pytest.approx(2, abs=0.2)
 
 
 T = np.arange(1, 361)/OFTEN
