@@ -12,8 +12,8 @@ $(if $(SCHEDULER),$(if $(and $(filter tcp://% tls://% ws://% wss://%,$(SCHEDULER
 	$(error SCHEDULER=$(SCHEDULER) is no address of a Dask scheduler: give tcp://host:port)))
 
 run     := .venv/bin/python
-# a study is a folder that can be run; kit and build serve them
-studies := $(filter-out report front judge,$(patsubst studies/%/__main__.py,%,$(wildcard studies/*/__main__.py)))
+# a study is a folder that makes a STUDY; the others serve them
+studies := $(patsubst studies/%/__init__.py,%,$(shell grep -l '^STUDY = ' studies/*/__init__.py))
 # studies of former versions and the ones that they are part of
 renamed := bodies:conservation motions:conservation transport:operators nested:operators fluctuations:noise dpd:noise speed:cost scenes:cost
 
@@ -42,10 +42,10 @@ help:  ## this list
 	@echo '  SIZE=quick writes to results/quick'
 
 $(studies:%=study-%): study-%: $(study)  ## cases, tables, figures, verdicts of a study; goes on where it stopped
-	$(run) -m studies.$* $(ARGS)
+	$(run) -m studies $* $(ARGS)
 
 $(studies:%=figures-%): figures-%: .venv/ready  ## its figures again, from its tables only
-	$(run) -m studies.$* figures $(ARGS)
+	$(run) -m studies $* figures $(ARGS)
 
 # any other name, before something is set up for it
 study-% figures-%:

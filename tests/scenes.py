@@ -6,7 +6,7 @@ from particles.integral.bodies import Held, held
 from particles.integral.points import Points, lattice, of_positions
 from particles.smooth.spam import Spam
 from studies.build.spam import PRINTED, Variant, method, start
-from studies.conservation.discs import CLEAR, on_circle
+from studies.conservation.slow_flows import CLEAR, on_circle
 
 ROWS = 8
 

@@ -10,7 +10,7 @@ from studies.kit import ask, fits
 from studies.kit.ask import one
 from studies.kit.claim import Claim, judge
 from studies.kit.csvfile import OtherTable
-from studies.kit.stats import CannotTell, Measured, combine, log, over_seeds, seed_means
+from studies.kit.stats import CannotTell, Measured, combine, over_seeds, seed_means
 from studies.kit.table import Tables
 
 ROWS = pd.DataFrame({"name": ["a", "a", "b", "b"], "n": [2, 1, 4, 8], "y": [4.0, 1.0, 16.0, 64.0],
@@ -62,8 +62,6 @@ def test_questions_are_calculated_with():
     assert (2/a)(TABLES) == almost(0.5, 0.5*0.3/4)
     assert (3*a + 1)(TABLES) == almost(13, 0.9)
     assert (-a**2)(TABLES) == almost(-16, 2*4*0.3)
-    assert log(Measured(6.0, 0.3)) == almost(math.log(6), 0.05)
-    assert ask.log(a)(TABLES) == almost(math.log(4), 0.3/4)
 
 
 def test_several_questions_in_one():
@@ -109,7 +107,6 @@ def by_hand(tables: Tables) -> Measured:
     (ask.largest("rows", "gone"), "gone is not a number in 1 of 4 rows of table rows"),
     (ask.over_seeds("rows", "exact", n=2), "no error bar without a second"),
     (one("rows", "y", n=2)/(one("rows", "y", n=2) - 4), "a ratio to 0 .* not told from zero"),
-    (ask.log(one("rows", "y", n=2) - 4), "a logarithm of 0"),
 ])
 def test_what_has_not_been_run_cannot_be_told(value, words):
     with pytest.raises(CannotTell, match=words):

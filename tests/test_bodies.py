@@ -17,7 +17,7 @@ from particles.integral.stream import Stream, separated
 from particles.integral.triangulation import delaunay
 from particles.threads import Threads
 from particles.weights import Lucy
-from studies.conservation.discs import in_disc, with_surface
+from studies.conservation.slow_flows import in_disc, with_surface
 
 LAW = ConstEta(0.3, 0.4)
 LAWS = pytest.mark.parametrize("law", [LAW, ConstNu(0.3, 0.4)], ids=["const-eta", "const-nu"])

@@ -132,7 +132,7 @@ def look_of(line: Line2D) -> tuple:
 
 @pytest.mark.parametrize(("study", "name"), [
     ("rb", "main"), ("rb", "fixed_points"), ("cost", "work_precision"), ("noise", "printed"),
-    ("conservation", "steps"), ("hardcases", "high_ra")])
+    ("hardcases", "high_ra")])
 def test_a_panel_has_seven_series_at_most_and_none_looks_like_another(study, name):
     page = pages_of(study)[name]
     panels = [looks(axes) for axes in page.axes]

@@ -78,6 +78,13 @@ CUBES = Study(name="toy", cases=lambda size: [Cube(x=1.0), Cube(x=1/3), Cube(x=7
                             because="1 is there", value=lambda tables: (tables["cubes"].y.max(), 0.0))])
 
 
+@pytest.mark.parametrize(("kind", "name"), [("tables", "cubes"), ("claims", "grows")])
+def test_two_things_of_one_name_are_refused_when_a_study_is_made(kind, name):
+    one, *_ = getattr(CUBES, kind)
+    with pytest.raises(ValueError, match=f"two {kind} of one study are called '{name}'"):
+        replace(CUBES, **{kind: [one, one]})
+
+
 @pytest.fixture
 def typed(tmp_path, monkeypatch, capsys):
     """What a command does: exit status and all that it prints; its results are in tmp_path/results."""
@@ -102,7 +109,7 @@ def test_only_runs_what_has_the_text_in_its_label_and_leaves_other_rows_as_they_
     toy = tmp_path/"results/toy"
     code, text = typed("--size", "fine", "--only", "quartic")
     assert code == 0 and list(read(toy/"cubes.csv").x) == [7], "Quartic, whatever the capitals"
-    assert "python -m studies.toy --size fine --only quartic" in (toy/"cubes.csv").read_text()
+    assert "python -m studies toy --size fine --only quartic" in (toy/"cubes.csv").read_text()
     assert (toy/"cubes.png").exists() and "holds" in text
 
     (toy/"cubes.csv").unlink(), (toy/"halves.csv").unlink()

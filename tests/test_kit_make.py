@@ -18,9 +18,9 @@ def make(tmp_path):
     shutil.copy(key.ROOT / "Makefile", tmp_path)
     for lock in key.ROOT.glob("requirements*.lock"):
         (tmp_path / lock.name).touch()
-    for name, file in {"one": "__main__.py", "two": "__main__.py", "kit": "case.py"}.items():
+    for name, text in {"one": "STUDY = 1\n", "two": "STUDY = 2\n", "kit": ""}.items():
         (tmp_path / f"studies/{name}").mkdir(parents=True)
-        (tmp_path / f"studies/{name}/{file}").touch()
+        (tmp_path / f"studies/{name}/__init__.py").write_text(text)
 
     def run(*words: str) -> tuple[int, str]:
         # below another make it would say which folder it enters
@@ -61,7 +61,7 @@ def test_all_studies_are_told_their_hours_first_and_become_notebooks_films_and_t
     code, text = make("-n", "studies", f"SIZE={size}")
     lines = [line.strip() for line in text.splitlines()
              if line.strip().startswith((".venv/bin/python", "for one in"))]
-    wanted = ["kit.timing one two", "studies.one", "studies.two", *last]
+    wanted = ["kit.timing one two", "studies one", "studies two", *last]
     assert code == 0 and len(lines) == len(wanted), text
     assert all(word in line for word, line in zip(wanted, lines)), lines
 

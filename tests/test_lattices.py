@@ -1,4 +1,4 @@
-"""Lattices against the sums that run: motions that grow, pairs, freezing; molecules; sound."""
+"""Lattices against the sums that run: motions that grow, freezing, sound."""
 from dataclasses import replace
 
 import numpy as np
@@ -8,14 +8,12 @@ from scenes import rows_of
 
 from continuum.fluid import IdealGas, VanDerWaals, pressure
 from particles.limits import lattice_sums
-from particles.smooth.spam import Spam
 from particles.threads import Threads
 from particles.weights import Lucy, Monaghan, WendlandC2
 from studies.build.spam import at_rest, fluid
 from studies.lattices.claims import NO_PRESSURE, SPINODAL
 from studies.lattices.crystals import LATTICES, Crystal, LatticeGrowth, Speed, sums
 from studies.lattices.frozen_flow import criteria, neighbours
-from studies.lattices.molecules import METHODS, RHO_SQUARED, Molecules, Reversal, as_fluid, whole_crowd
 
 HEXAGONAL, SQUARE = LATTICES["hexagonal"], LATTICES["square"]
 WEIGHTS = (Lucy, Monaghan, WendlandC2)
@@ -85,31 +83,6 @@ def test_criteria_are_the_printed_inequalities():
     printed = criteria(Lucy, 0.002)
     assert printed["barrier"]*2*5/(9*np.pi) == pytest.approx(2*0.002, rel=1e-12)
     assert printed["melting"]*2*0.010452 == pytest.approx(2*0.002, rel=1e-3)
-
-
-# --- molecules --------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("weight", [Lucy, Monaghan])
-def test_pressure_of_the_square_of_the_density_makes_molecules(weight):
-    state = whole_crowd(8, 3)
-    method = as_fluid(Spam, weight.of(h=3.0), 8.0)
-    kernel, ids = method.start(64, Threads(1)), np.arange(64)
-    ordered, out, expected = state.copy(), np.empty_like(state), np.empty_like(state)
-    kernel.around.relist(ordered, ids, 0.0)
-    kernel.rates(ordered, out)
-    Molecules(weight.of(h=3.0), 8.0).rates(state, expected)
-    np.testing.assert_allclose(out[:4, np.argsort(ids)], expected[:4], atol=1e-13)
-    assert pressure(RHO_SQUARED, 1.7, 900.0) == 1.7**2
-
-
-def test_paths_come_back_as_their_steps_let_them():
-    found = {name: rows_of(Reversal(name=name, integrator=integrator, weight=Lucy, times=(3.0,), side=8),
-                           "reversal")[0]
-             for name, integrator in METHODS.items()}
-    assert found["whole numbers"]["equal"] == 1 and found["whole numbers"]["apart"] == 0
-    assert 0 < found["leapfrog"]["apart"] < 1e-13 and found["leapfrog"]["equal"] < 1
-    assert 1e-6 < found["rk4"]["apart"] < 0.1
 
 
 # --- sound ------------------------------------------------------------------------------------------

@@ -1,4 +1,4 @@
-"""The study noise: printed noise, dissipative particles, samples of complex waves."""
+"""The study noise: printed noise, dissipative particles, heat with current amplitudes."""
 from dataclasses import replace
 
 import numpy as np
@@ -11,12 +11,9 @@ from particles.integral.edge_makers import delaunay
 from particles.integral.points import jittered
 from studies.kit.sweep import RESULTS
 from studies.noise import cases
-from studies.noise.below_onset import root, sampled, slowest_amplitude
-from studies.noise.covariance import steady
 from studies.noise.dissipative import blocks, neighbours
 from studies.noise.partners import KT, viscosity
 from studies.noise.printed_noise import dirichlet, heat_kicks, heat_rates
-from studies.noise.sampling import along_and_across
 
 
 @pytest.fixture(scope="module")
@@ -58,44 +55,6 @@ def test_viscosity_of_the_noise_goes_with_the_density():
     c = 3/np.mean((1 - r)*r*4*np.pi*r**2)
     assert viscosity(rho=1.0) == pytest.approx(945/(8*np.pi*c**2), rel=1e-7)
     assert viscosity(rho=6.0)/viscosity(rho=3.0) == pytest.approx(2)
-
-
-def wave_of(n: int = 6) -> tuple[np.ndarray, np.ndarray]:
-    """A complex J, all of whose modes decay, and a complex Q."""
-    rng = np.random.default_rng(1)
-    J, B = (rng.normal(size=(n, n)) + 1j*rng.normal(size=(n, n)) for _ in range(2))
-    return 0.01*(J - 6*np.eye(n)), B@B.conj().T
-
-
-def test_the_root_of_a_covariance_is_the_noise_that_has_it():
-    _, Q = wave_of()
-    assert root(Q)@root(Q).conj().T == pytest.approx(Q, abs=1e-12)
-    with pytest.raises(ArithmeticError, match="no noise has a negative variance"):
-        root(Q - 1.01*np.linalg.eigvalsh(Q)[0]*np.eye(len(Q)))
-
-
-def test_samples_of_complex_waves_have_the_variances_of_the_lyapunov_solve():
-    """Within five standard errors; a Q that is half as large is seen."""
-    J, Q = wave_of(8)
-    modes = np.random.default_rng(2).normal(size=(2, 8)) + 0.5j
-    rows = sampled(J, Q, modes, 1, lambda done: None, 60.0)
-    C = steady(J, Q)
-    for row, mode in zip(rows, modes, strict=True):
-        assert row["exact"] == pytest.approx((mode@C@mode.conj()).real)
-        assert abs(row["ratio"] - 1) < 2.5*row["ratio_err"] < 0.3
-
-
-def test_the_slowest_amplitude_is_a_left_eigenvector():
-    J, _ = wave_of()
-    row, rate = slowest_amplitude(J), np.linalg.eigvals(J)
-    assert row@J == pytest.approx(rate[np.argmax(rate.real)]*row, abs=1e-12)
-
-
-@pytest.mark.parametrize("k", [(1.0, 0.0, 0.0), (0.0, -2.0, 0.0), (1.0, -1.0, 0.5), (0.0, 0.0, 0.0)])
-def test_velocities_along_and_across_a_wave_in_space(k):
-    frame = along_and_across(np.array(k))
-    assert frame@frame.T == pytest.approx(np.eye(3), abs=1e-14)
-    assert np.abs(frame[1:]@np.array(k)).max() < 1e-14
 
 
 @pytest.mark.parametrize("corrected", [True, False])

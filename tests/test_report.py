@@ -13,7 +13,7 @@ from studies.kit.claim import paper_of
 from studies.kit.csvfile import write
 from studies.kit.figure import Drawing, Drawings
 from studies.kit.store import RESULTS
-from studies.kit.study import Part, Study
+from studies.kit.study import Study
 from studies.report import inventory, text
 from studies.report.__main__ import main
 from studies.report.equations import with_error
@@ -70,8 +70,8 @@ def toy(errors):
 
 def test_a_figure_is_shown_with_the_tables_and_the_code_that_its_study_lists(small, monkeypatch):
     """Others with all tables of their study, and its question."""
-    listed = Part(cases=lambda size: [], tables=[], figures=Drawings(Drawing("toy", ("errors",), toy)))
-    study = Study.of("rb", "Why?", (listed, Part(cases=lambda size: [], tables=[])))
+    study = Study(name="rb", question="Why?", cases=lambda size: [], tables=[],
+                  figures=Drawings(Drawing("toy", ("errors",), toy)))
     monkeypatch.setattr(inventory, "study_of", lambda part: study)
     write(small/"rb/more.csv", errors(), head=["commit def"])
     Image.new("RGB", (20, 10)).save(small/"rb/old.png")

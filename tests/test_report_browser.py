@@ -175,7 +175,7 @@ def test_by_keyboard_alone_from_the_first_link_to_filtered_claims(desk, page, cl
     assert focused(desk) == "phrase"
     style = "getComputedStyle(document.activeElement)"
     assert desk.execute_script(f"return [{style}.outlineStyle, {style}.outlineWidth]") == ["solid", "3px"]
-    ActionChains(desk).send_keys("equipartition").perform()
+    ActionChains(desk).send_keys("fluctuations").perform()
     count = desk.find_element(By.ID, "count")
     assert 0 < len(shown(desk)) < len(claims)
     assert re.match(f"{len(shown(desk))} of ", count.text) and count.get_attribute("aria-live") == "polite"

@@ -1,6 +1,5 @@
 """What is said of every study: its cases fill its tables, its tables give its figures and its verdicts."""
 from dataclasses import replace
-from importlib import import_module
 
 import matplotlib.pyplot as plt
 import pandas as pd
@@ -9,20 +8,17 @@ import pytest
 from studies.kit.case import Case
 from studies.kit.claim import COLUMNS, judge, paper_of
 from studies.kit.csvfile import read
-from studies.kit.key import ROOT
-from studies.kit.study import Study
+from studies.kit.study import Study, names, study_of
 from studies.kit.sweep import RESULTS, load
 from studies.kit.table import SIZES, Tables
 
 #: class of cases -> fields with which one of them is cheaper than any of size quick
 SMALLER = {"Nonlinear": {"counts": (3, 3), "time": 93.0}}
-NO_STUDY = {"report", "front", "judge"}
-NAMES = sorted({path.parent.name for path in (ROOT/"studies").glob("*/__main__.py")} - NO_STUDY)
 
 
-@pytest.fixture(scope="module", params=NAMES)
+@pytest.fixture(scope="module", params=names())
 def study(request) -> Study:
-    return import_module(f"studies.{request.param}").STUDY
+    return study_of(request.param)
 
 
 def kinds(study: Study) -> list[Case]:

@@ -224,10 +224,7 @@ def costs() -> Iterator[str]:
 
 
 def noises() -> Iterator[str]:
-    even = "own-fluct-equipartition"
-    yield f"Equipartition is {of(even)} in 2D and {of(even + '-3d')} in 3D"
     yield f"with the power {of('own-fluct-eq25-onset')} of 1 - Ra/Ra_c"
-    yield f"a mode has {of('own-fluct-eq25-onset-seen')} times its variance"
     names = "grootwarren", "grootwarren65", "velocityverlet", "shardlow"
     yield f"the kinetic kT is {thermal('kinetic', *names)} % off"
     yield f"the configurational one {thermal('configurational', *names)} %"

@@ -6,10 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from particles.limits import limit_of
-from particles.run import Divergence, Plan, run
 
-NOISE = 1e-6            # of quantities that are about 1: what grows by 10 is still linear
-GROWN = 10.0            # times the noise of a tenth of the run, when fast decays are over
 HALVINGS = 8            # of the factor 2 between a step that is stable and one that is not: 0.3 %
 WIDENINGS = 6           # factors of 2 on either side before the search gives up
 
@@ -29,25 +26,6 @@ class Unguarded:
 @limit_of.register
 def _(method: Unguarded, start: np.ndarray) -> float:
     return inf
-
-
-class Noise(NamedTuple):
-    """Rms deviation of some rows of a state from their means."""
-    rows: tuple[int, ...]
-
-    def __call__(self, sums: Any, state: np.ndarray) -> float:
-        return float(np.sqrt(state[list(self.rows)].var(axis=1).sum()))
-
-
-def noise_grows(method: Unguarded, start: np.ndarray, rows: tuple[int, ...], steps: int, dt: float) -> bool:
-    """Whether noise is GROWN times larger at the end than after a tenth of the steps, or the run diverges."""
-    quantities: dict[str, Any] = {"noise": Noise(rows)}
-    plan = Plan(dt=dt, steps=steps, series=quantities, every=steps//10)
-    try:
-        series = run(method, start, plan).series["noise"]
-    except Divergence:
-        return True
-    return series[-1] > GROWN*series[0]
 
 
 class Found(NamedTuple):

@@ -9,7 +9,6 @@ from collections.abc import Iterator
 from dataclasses import replace
 from itertools import product
 
-from continuum.fluid import ConstEta
 from particles.integral.closed_faces import Ingredients
 from particles.integral.dih import NestedFluxes, Pairwise
 from particles.integral.edge_makers import MAKERS
@@ -27,12 +26,9 @@ from studies.conservation.drift import (
     LayerDrift,
     MotionDrift,
     MovingDrift,
-    Places,
     Wall,
-    sound_flow,
-    vortex_flow,
 )
-from studies.conservation.motions import ALONG, STILL, BracketForce, Identity, MovingSound, Pattern, Signs
+from studies.conservation.motions import ALONG, BracketForce, Identity, MovingSound, Pattern, Signs
 from studies.conservation.slow_flows import VARIANTS, CylinderDrag, SlidingShear, TurningWave
 from studies.conservation.sums import CUBE, EVERYTHING, LINE, SQUARE, DihDrift, Unsymmetric
 from studies.kit.case import Case
@@ -133,15 +129,6 @@ def speeds(wavelengths: tuple[int, ...]) -> Iterator[Case]:
             yield MovingSound(motion=name, kind=kind, wavelength=wavelength, weight=WendlandC2, h=4.0)
 
 
-#: sound for one and a half periods: after whole ones the errors of some integrators are small by chance
-PLACES = (
-    Places(motion="literal", flow="sound", start=sound_flow, counts=(16, 7), law=STILL, time=13.0, steps=60),
-    Places(motion="constant-mass", flow="sound", start=sound_flow, counts=(16, 7), law=STILL, time=18.9,
-           steps=80),
-    Places(motion="constant-mass", flow="vortices", start=vortex_flow, counts=(12, 12),
-           law=ConstEta(0.2, 0.2), time=10.0, steps=80))
-
-
 def drags(fraction: float, sizes: dict[str, tuple[int, ...]]) -> Iterator[Case]:
     """Of some variants."""
     for name, rows in sizes.items():
@@ -159,7 +146,6 @@ def quick() -> Iterator[Case]:
     some = KINDS[:2], WEIGHT_KINDS[:1]
     yield from (*layers(*some, steps=300), *plates(*some, steps=300))
     yield from (*dimensions(300, seeds=2), *motions(40, WEIGHT_KINDS[:1]), *once(), *speeds((8,)))
-    yield from (replace(case, steps=case.steps//8) for case in PLACES)
     yield from sliding((12, 16, 24))
     yield from drags(0.1, {"surface": (12, 16), "frozen": (12, 16)})
 
@@ -168,11 +154,11 @@ def paper() -> Iterator[Case]:
     """All of them."""
     yield from (*layers(KINDS, WEIGHT_KINDS, 10_000), *plates(KINDS, WEIGHT_KINDS, 10_000))
     yield from (*dimensions(10_000, seeds=24), *motions(10_000, WEIGHT_KINDS), *once(), *moving())
-    yield from (*speeds((8, 16, 24, 32)), *PLACES)
+    yield from speeds((8, 16, 24, 32))
     yield from sliding((16, 24, 32, 48, 64))
     for fraction, every in ((0.1, 1), (0.3, 4)):
-        yield from drags(fraction, {"surface": SMOOTH, "surface-unfiltered": (24, 32, 48),
-                                    "frozen": SCATTERED[::every], "frozen-grown": SCATTERED[::every]})
+        yield from drags(fraction, {"surface": SMOOTH, "frozen": SCATTERED[::every],
+                                    "frozen-grown": SCATTERED[::every]})
 
 
 def cases(size: str) -> list[Case]:

@@ -1,10 +1,10 @@
 """What RR98 says of sums, of moving points, of bodies, judged    [RR98 Eqs 34-41, 46-50, Secs III, IV]"""
 from functools import partial
-from math import inf, sqrt
+from math import inf
 from typing import Any
 
 from studies.conservation.sums import EVERYTHING
-from studies.kit.ask import Value, largest, largest_of, least, one, over_seeds, power
+from studies.kit.ask import Value, largest, largest_of, one, over_seeds, power
 from studies.kit.claim import Claim
 
 SUMS = ("mass", "momentum", "energy")
@@ -26,17 +26,6 @@ def changed(*modes: str) -> Value:
     return largest_of(*(largest("drift", name, scheme="motions", mode=modes) for name in SUMS))
 
 
-def survival(maker: str, points: str) -> Value:
-    """Share of the steps that runs with forces along edges reached before they diverged."""
-    return least("drift", "reached/steps", scheme="layer", mode="pairwise", maker=maker, points=points,
-                 wall="periodic")
-
-
-def last_tenth(variant: str) -> Value:
-    """What the drag changes in the last tenth of the time."""
-    return one("drag", "drag_err", variant=variant, fraction=0.1, rows=32)
-
-
 def drag_error(variant: str, fraction: float) -> Value:
     """|error| of the drag with 48 rows."""
     return abs(one("drag", "error", variant=variant, fraction=fraction, rows=48))
@@ -47,9 +36,6 @@ SAME: dict[str, Any] = {
     "at_most": 1e-13, "because": "1e-13: sums of some hundred numbers that 40 000 additions have rounded"}
 STEPS: dict[str, Any] = {
     "at_most": 1e-13, "because": "round-off: 1e4 steps of some 1e-17 each, in a random walk"}
-ALL: dict[str, Any] = {"at_least": 1.0, "because": "all of them"}
-FINER: dict[str, Any] = {"at_most": 1, "printed": "more accurate",
-                         "because": "smaller than one is more accurate; the reference is RK4"}
 HALVES = "its error is what the two halves of the run differ by"
 ALONE = "computed once, by sums in a fixed order: no statistics"
 SMOOTHED = f"2 %: a weight of h = 3 a takes 1.5 % off the gradient of such a wave; {ALONE}"
@@ -59,7 +45,7 @@ EXTRAPOLATED = "the error is the difference of two extrapolations"
 CONSTANTS = "with a and b constants"
 ACRIVOS = "Sangani & Acrivos 1982, Table 1"
 SLIDE = partial(Claim, source="RR98 Sec. IV", printed="can be used")
-CONSERVED = partial(Claim, printed=BY_CONSTRUCTION, **SAME)
+CONSERVED = partial(Claim, printed=BY_CONSTRUCTION, headline=True, **SAME)
 FIXED = (
     CONSERVED(id="rr98-conservation-mass", source="RR98 Eq. 34", value=kept("mass", "layer", "dih"),
               statement="total mass is conserved: largest relative change in any run of 10 000 steps on "
@@ -84,13 +70,6 @@ FIXED = (
           value=largest("drift", "energy", err="err", mode="ideal", wall="plates, gravity"),
           statement="energy with that of height is conserved between plates without friction under gravity: "
                     "relative change in 10 000 steps"),
-    *(Claim(id=f"own-conservation-survival-{name}", source="RR98 Eqs 34-36", value=survival(maker, points),
-            **ALL,
-            statement=f"the brackets {edges} carry a random start through 10 000 steps on {where}: share of "
-                      "the steps before divergence")
-      for name, maker, points, edges, where in (
-          ("jittered", "plain", "jittered-0.3", "with plain quadrature", "points jittered by 0.3 a"),
-          ("delaunay", "delaunay", "random", "over Delaunay edges", "random points"))),
     *(Claim(id=f"own-conservation-moving-{name}", source="RR98 Sec. III B", value=kept(name, "moving"),
             **SAME,
             statement=f"points can move and keep {name}: largest relative change in 10 000 steps of volumes, "
@@ -109,29 +88,10 @@ MOVING = (
           statement="points that move with v under Eqs 34-36: speed of long sound over c, Wendland C2, h = "
                     "4 a",
           because=f"2 %: extrapolated from wavelengths of 24 and 32 a; {EXTRAPOLATED}"),
-    Claim(id="own-eq39-sound-factor", source="RR98 Eqs 34-36, 39", expect=sqrt(2), within=0.01,
-          value=one("long_sound", "speed", motion="literal", weight="WendlandC2"),
-          statement="volumes dV that stay while points move add 2 P grad(n dV) to the force: long sound of "
-                    "the literal motion is sqrt(1 + 2/gamma) c, Wendland C2, h = 4 a",
-          because=f"1 %: 0.3 % from sums over the lattice, and the next order in h/lambda; {EXTRAPOLATED}"),
-    Claim(id="own-eq39-sound-factor-lucy", source="RR98 Eqs 34-36, 39", expect=sqrt(2), within=0.01,
-          value=one("long_sound", "speed", motion="literal", weight="Lucy"),
-          statement="the factor of long sound in literal motion, sqrt(1 + 2/gamma), with Lucy's weight, h = "
-                    "3 a",
-          because="1 %, as for Wendland's; what the lattice sums of w'' miss stays however long the wave is"),
     Claim(id="rr98-eq39-conserves", source="RR98 Eqs 34-36, 39", printed="conserved", **STEPS,
           value=changed("literal, RK4", "literal, TwoStep"),
           statement="mass, momentum and energy stay while points move literally: largest relative drift "
                     "over 1e4 steps, all weights, both integrators"),
-    *(Claim(id=f"rr98-eq41-accuracy{name}", source="RR98 Eq. 41", **FINER,
-            value=one("accuracy", "ratio", motion=motion, flow=flow), headline=name != "-mass",
-            evidence="conservation/steps.png",
-            statement="positions with new velocities are more accurate: their error over that with old "
-                      f"ones, {where}")
-      for name, motion, flow, where in (
-          ("", "literal", "sound", "sound in literal motion"),
-          ("-mass", "constant-mass", "sound", "sound at constant mass"),
-          ("-vortices", "constant-mass", "vortices", "decaying vortices at constant mass"))),
     *(Claim(id=f"rr98-eq{n}-sign", source=f"RR98 Eq. {n}", printed="-", expect=1, within=0.02,
             because=SMOOTHED, value=one("signs", "factor", equation=n, wavelength=32), headline=True,
             statement=f"what is added to the change of {name} is v.grad of it: over the exact one, lattice, "
@@ -217,11 +177,5 @@ BODIES = (
             because=LIMIT, value=one("drag_limits", "error", variant="surface", fraction=c),
             statement="points on the surface: drag extrapolated to infinitely fine points against print, "
                       f"relative, solid fraction {c:g}") for c, printed in ((0.1, "24.83"), (0.3, "102.90"))),
-    Claim(id="own-bodies-filter", source="RR98 Sec. IV", at_least=10,
-          because="ten times: no matter of chance",
-          value=last_tenth("surface-unfiltered")/last_tenth("surface"),
-          statement="without a filter of the density slow flow around a body creeps on: change of the drag "
-                    "in the last tenth of the time over that with the filter, points on the surface, 32 "
-                    "rows"),
 )
 CLAIMS = (*FIXED, *MOVING, *BODIES)

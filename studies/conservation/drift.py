@@ -1,27 +1,24 @@
-"""Long runs on fixed points [RR98 Eqs 34-38] and on moving ones; where these end after a time [Eqs 39-49]."""
+"""Long runs on fixed points [RR98 Eqs 34-38] and on moving ones [Eqs 39-49]."""
 from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import product
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.linalg import norm
 
 from continuum.fluid import ConstEta, IdealGas
 from particles.integral.closed_faces import EXCHANGED, Ingredients, Moving
-from particles.integral.dih import Pairwise
 from particles.integral.edges import NONE_BEYOND, Edges, between_plates
 from particles.integral.layer import Layer
 from particles.integral.nested import mixed
-from particles.integral.points import Points, lattice, of_positions
-from particles.integral.rr98_moving_plain import MOTIONS, Motion
-from particles.integrators import RK4, Euler, TwoStep
+from particles.integral.points import Points, of_positions
+from particles.integral.rr98_moving_plain import Motion
+from particles.integrators import RK4
 from particles.walls.mirror import plates
 from particles.walls.periodic import periodic
 from particles.weights import Lucy, WendlandC2
 from studies.build.setting import DISORDERS, Disorder
-from studies.conservation.motions import C, march, moving
+from studies.conservation.motions import moving
 from studies.conservation.sums import (
     EVERYTHING,
     WatchedRun,
@@ -31,7 +28,7 @@ from studies.conservation.sums import (
     random_fields,
     sizes,
 )
-from studies.kit.case import Case, Outcome, Report
+from studies.kit.case import Outcome, Report
 
 SIDE = 8                # of the box, in spacings
 H = 3.0                 # range of the weights
@@ -200,51 +197,3 @@ class MotionDrift(WatchedRun):
             np.array([mass, *momenta, total]), report, records=self.steps,
             mode=f"{self.motion}, {self.integrator.__name__}", maker="renormalised", h=NARROW, n=points.n,
             weight=self.weight.__name__, points=self.disorder.name, claimed=self.claimed)
-
-
-def sound_flow(x: np.ndarray, box: np.ndarray) -> tuple[np.ndarray, ...]:
-    """Sound that travels, so that no phase of it is special: rho, v, T."""
-    wave = 0.02*np.sin(2*np.pi*x[:, 0]/box[0])
-    return 1 + wave/C, np.stack([wave, 0*wave], axis=1), 1 + wave/C
-
-
-def vortex_flow(x: np.ndarray, box: np.ndarray) -> tuple[np.ndarray, ...]:
-    """Taylor-Green vortices, the pressure in balance: rho, v, T."""
-    (X, Y), u = (2*np.pi*x/box).T, 0.1
-    v = u*np.stack([np.sin(X)*np.cos(Y), -np.cos(X)*np.sin(Y)], axis=1)
-    return np.ones(len(x)), v, 1 + u*u/4*(np.cos(2*X) + np.cos(2*Y))
-
-
-@dataclass(frozen=True, kw_only=True)
-class Places(Case):
-    """Rms error of positions over the rms displacement, for so many steps, twice and four times as many.
-
-    Against RK4 with the most steps; the error of that reference is its difference from RK4 with half as many.
-    start : rho, v, T of positions and box, `flow` its name.
-    """
-    motion: str
-    flow: str
-    start: Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, ...]]
-    counts: tuple[int, int]
-    law: ConstEta
-    time: float
-    steps: int
-
-    def run(self, report: Report, folder: Path) -> Outcome:
-        counts = [self.steps*m for m in (1, 2, 4)]
-        exact, coarse = self.places(RK4, counts[2]), self.places(RK4, counts[1])
-        moved = norm(exact - lattice(self.counts).x)
-        known = {"motion": self.motion, "flow": self.flow, "error_err": norm(exact - coarse)/moved}
-        rows = []
-        for (name, integrator), n in product((("euler", Euler), ("two-step", TwoStep)), counts):
-            error = norm(self.places(integrator, n) - exact)/moved
-            rows.append({**known, "integrator": name, "steps": n, "dt": self.time/n, "error": error})
-        return Outcome({"steps": rows})
-
-    def places(self, integrator: Any, steps: int) -> np.ndarray:
-        """Positions (n, 2) at the end."""
-        points = lattice(self.counts)
-        method = moving(MOTIONS[self.motion], points, Lucy.of(h=3.0), self.law, transport=Pairwise())
-        state = method.state(points.x, *self.start(points.x, points.box))
-        march(method, state, self.time/steps, steps, lambda state: None, integrator)
-        return method.fields(state).x

@@ -1,30 +1,16 @@
 """Figures of the study conservation, from its tables."""
-from typing import Any
-
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from studies.kit.figure import Drawing, Drawings, errorbar, figure, logarithmic, look, numbered, plain_ticks
+from studies.kit.figure import Drawing, Drawings, bars, figure, logarithmic, look, numbered, plain_ticks
 
 #: RR98's motions, by their names, with their equations
 MOTIONS = {"literal": "moving-literal (39-41)", "convective": "moving-convective (46-48)",
            "carried": "moving-carried (46-48)", "constant-mass": "moving-constant-mass (49)"}
-#: those of `steps`, with old and new velocities
-STEPPED = {motion: MOTIONS[motion] for motion in ("literal", "constant-mass")}
-INTEGRATORS: dict[str, Any] = {
-    "euler": {"label": "old velocities [Eq. 40]", "face": "white"},
-    "two-step": {"label": "new velocities [Eq. 41]", "face": None}}
-BODIES = {"surface": "points on the surface", "surface-unfiltered": "on the surface, without filter",
-          "frozen": "frozen lattice points", "frozen-grown": "frozen, half a spacing more"}
-UNIT = r"$a\,(m/k_BT)^{1/2}$"      # of time
-
-
-def bars(axes: Axes, rows: pd.DataFrame, x: str, y: str, **more: Any) -> None:
-    """A column with its errors over another."""
-    if len(rows):
-        errorbar(axes, rows[x], rows[y], rows[f"{y}_err"], **more)
+BODIES = {"surface": "points on the surface", "frozen": "frozen lattice points",
+          "frozen-grown": "frozen, half a spacing more"}
 
 
 def speeds(patterns: pd.DataFrame, sound: pd.DataFrame) -> Figure:
@@ -51,26 +37,6 @@ def draw_speeds(axes: Axes, rows: pd.DataFrame) -> None:
         axes.plot(group["wavelength"], group["predicted"], color="grey", linestyle=":", marker="")
     axes.set(xlabel=r"wavelength $\lambda/a$", xscale="log")
     plain_ticks(axes, sorted(set(rows["wavelength"])))
-
-
-def steps(rows: pd.DataFrame) -> Figure:
-    """Where points end that move with old velocities (Eq. 40) and with new ones (Eq. 41): a panel a flow."""
-    flows = sorted(set(rows["flow"]))
-    page, panels = figure(1, len(flows), width=3.6, height=4.2, squeeze=False, sharey=True)
-    for axes, flow in zip(panels[0], flows, strict=True):
-        for number, (motion, words) in enumerate(STEPPED.items()):
-            some = rows[(rows["flow"] == flow) & (rows["motion"] == motion)].sort_values("dt")
-            for integrator, more in INTEGRATORS.items():
-                group = some[some["integrator"] == integrator]
-                bars(axes, group, "dt", "error", number=number, label=f"{words}, {more['label']}",
-                     linestyle=look(number)["linestyle"], markerfacecolor=more["face"])
-        axes.set(xlabel=rf"step $\Delta t$  [{UNIT}]", title=flow)
-        logarithmic(axes, (0.03, 0.1, 0.3))
-    panels[0, 0].set_ylabel("rms error of places over displacement")
-    page.legend(*panels[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=1)
-    page.suptitle("Steps with new velocities leave points nearer to where they belong\n"
-                  "bars: what finer steps differ by")
-    return page
 
 
 def drags(drag: pd.DataFrame) -> Figure:
@@ -104,5 +70,4 @@ def draw_drags(axes: Axes, rows: pd.DataFrame) -> None:
 
 FIGURES = Drawings(
     Drawing("speeds", ("patterns", "moving_sound"), speeds),
-    Drawing("steps", ("steps",), steps),
     Drawing("drag", ("drag",), drags))

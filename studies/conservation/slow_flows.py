@@ -11,7 +11,7 @@ from continuum.published import published
 from particles.integral.bodies import held
 from particles.integral.edge_makers import renormalised
 from particles.integral.edges import Edges
-from particles.integral.points import Points, lattice
+from particles.integral.points import Points, lattice, of_positions
 from particles.integral.sheared import Sheared
 from particles.integral.stream import Stream, Streaming
 from particles.integral.triangulation import delaunay
@@ -19,7 +19,6 @@ from particles.limits import limit_of
 from particles.run import Plan, Run, run
 from particles.threads import Threads
 from particles.weights import Lucy
-from studies.conservation.discs import in_disc, with_surface
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import Measured, with_errors
 
@@ -30,6 +29,8 @@ OF_LIMIT = 0.9              # of the step to its stability limit: a steady flow 
 BOXES = 2.0                 # lengths of the box that images slide
 DIFFERENCE = 0.1            # of the speeds of neighbouring boxes
 SOUND = np.sqrt(2.0)        # its speed at rho = T = 1
+#: spacings between a surface and points off it: nearer ones would cut its edges or take short steps
+CLEAR = 0.6
 
 #: points, numbers of those that are the body, edges
 Cell = tuple[Points, np.ndarray, Edges]
@@ -38,6 +39,41 @@ Cell = tuple[Points, np.ndarray, Edges]
 def spent(done: Run) -> dict[str, float]:
     """How long a run was."""
     return {"steps": done.step, "cpu_s": done.cpu_s, "compile_s": done.compile_s}
+
+
+def in_disc(points: Points, radius: float) -> np.ndarray:
+    """Numbers of the points within a disc about the middle of the box, those on its edge among them."""
+    check_disc(points, radius)
+    return np.flatnonzero(np.hypot(*points.x.T) <= radius*(1 + 1e-12))
+
+
+def check_disc(points: Points, radius: float) -> None:
+    """Refuse a disc without a point, and one that touches its own image."""
+    if not points.a <= radius <= points.box.min()/2 - points.a:
+        raise ValueError(f"a disc of radius {radius:g} in a box {points.box} must be at least a spacing, "
+                         f"{points.a:.3g}, and as far from its image beyond the side; take more points")
+
+
+def with_surface(counts: tuple[int, int], radius: float) -> tuple[Points, np.ndarray]:
+    """A lattice of spacing 1 with a disc about its middle, and the disc's points, surface included.
+
+    The lattice keeps off the circle by CLEAR, so that chords between neighbours on it are Delaunay edges. The
+    polygon lacks a fraction (2 pi/n)^2/6 of the area of the disc.
+    """
+    at = lattice(counts)
+    check_disc(at, radius)
+    r = np.hypot(*at.x.T)
+    circle = on_circle(radius)
+    inside, outside = at.x[r < radius - CLEAR], at.x[r > radius + CLEAR]
+    points = of_positions(np.concatenate([circle, inside, outside]), at.box)
+    return points, np.arange(len(circle) + len(inside))
+
+
+def on_circle(radius: float) -> np.ndarray:
+    """Points (n, 2) about one apart on a circle."""
+    n = round(2*np.pi*radius)
+    angle = 2*np.pi*(np.arange(n) + 0.5)/n
+    return radius*np.stack([np.cos(angle), np.sin(angle)], axis=1)
 
 
 class Obstacle(NamedTuple):
@@ -62,7 +98,6 @@ def triangulated(rows: int, radius: float) -> Cell:
 
 VARIANTS = {variant.name: variant for variant in (
     Obstacle("surface", triangulated),
-    Obstacle("surface-unfiltered", triangulated, filtered=0.0),
     Obstacle("frozen", frozen),
     Obstacle("frozen-grown", frozen, grown=0.5))}
 

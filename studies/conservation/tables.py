@@ -35,11 +35,6 @@ ALL = (
              about="A sound wave on moving points; predicted from sums over the lattice and one moved."),
     Table.of("long_sound", "motion weight", "speed speed_err", means=SOUND,
              about="The same of endless waves, extrapolated."),
-    Table.of("steps", "motion flow integrator steps", "dt error error_err",
-             about="A run in so many steps over a fixed time.",
-             means={"error": ("rms error of the positions over the rms displacement", "")}),
-    Table.of("accuracy", "motion flow", "ratio ratio_err", about="Two integrators at the shortest step.",
-             means={"ratio": ("error with new velocities [Eq. 41] over that with old ones [Eq. 40]", "")}),
     Table.of("identity", "transport reynolds", "convective",
              about="Accelerations of two forms of the momentum equation for one set of random fields."),
     Table.of("signs", "equation wavelength", "factor",
@@ -63,14 +58,13 @@ ALL = (
 LONG = (16, 24, 32)     # wavelengths from which sound is extrapolated
 LEAST = 3               # sizes of a limit
 WIDE = 4.0              # spacings: a circle of a smaller radius is too coarse a polygon
-SMOOTH = ("surface", "surface-unfiltered")      # drags that err as rows^-2; staircases as 1/rows
 DERIVED = Iterator[dict[str, Any]]
 
 
 def derive(tables: Tables) -> Rows:
     """Derived rows of the study, of the tables there are."""
     rows = {}
-    for name, source, make in (("long_sound", "moving_sound", long_sound), ("accuracy", "steps", accuracy),
+    for name, source, make in (("long_sound", "moving_sound", long_sound),
                                ("drag_limits", "drag", drag_limits)):
         if source in tables:
             rows[name] = list(make(tables[source]))
@@ -98,22 +92,12 @@ def extrapolated(speeds: pd.Series, a: int, b: int) -> float:
     return float((b*b*speeds[b] - a*a*speeds[a])/(b*b - a*a))
 
 
-def accuracy(steps: pd.DataFrame) -> DERIVED:
-    """Errors of two integrators at the shortest step; they share a reference, whose errors add up."""
-    for (motion, flow), group in steps.groupby(["motion", "flow"]):
-        finest = group[group["steps"] == group["steps"].max()].set_index("integrator")
-        new, old = finest.loc["two-step"], finest.loc["euler"]
-        ratio = new["error"]/old["error"]
-        relative = new["error_err"]/new["error"] + old["error_err"]/old["error"]
-        yield {"motion": motion, "flow": flow, "ratio": ratio, "ratio_err": ratio*relative}
-
-
 def drag_limits(drags: pd.DataFrame) -> DERIVED:
     """Drags of infinitely fine points."""
     for (variant, fraction), group in drags[drags["radius"] > WIDE].groupby(["variant", "fraction"]):
         if len(group) >= LEAST:
             rows = group["rows"].to_numpy(float)
-            spacing = rows**-2 if variant in SMOOTH else 1/rows
+            spacing = rows**-2 if variant == "surface" else 1/rows      # of a true surface, of staircases
             unsteady = Measured(0.0, group["drag_err"].max())
             limit = fits.line(spacing, group["drag"].to_numpy()).intercept + unsteady
             published = Measured(*group[["published", "published_err"]].iloc[0])

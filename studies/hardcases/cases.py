@@ -8,10 +8,9 @@ from particles.run import STUDIES
 from particles.weights import Lucy, Monaghan
 from studies.build import variant, variants
 from studies.build.spam import PRINTED
-from studies.hardcases import high_ra, largest_step, printed, tubes
+from studies.hardcases import high_ra, printed, tubes
 from studies.hardcases.extremes import LAYERS, ROWS, SITUATIONS, Smooth, Tiled, WithoutPlates
-from studies.hardcases.high_ra import FineGrid, HighRa, Rippled, Steadiness
-from studies.hardcases.largest_step import Limit
+from studies.hardcases.high_ra import FineGrid, HighRa, Rippled
 from studies.hardcases.printed import Interface, Square
 from studies.hardcases.survival import GRID, PROBES, Hard, HardOnGrid, Probe
 from studies.hardcases.tubes import BARELY, ETAS, STEPS, MethodTube
@@ -34,18 +33,6 @@ IN_LAYERS: Runners = {
     LATTICE: (high_ra.on_points, Rippled(variant(LATTICE))),
     JITTERED: (high_ra.on_points, Rippled(variant(JITTERED))),
     **{name: (high_ra.on_points, variant(name)) for name in (CARRIED, MOVING)},
-}
-#: limits of the step, likewise; at h = 3 the lattice of drifting points itself gives way
-AT_REST: Runners = {
-    GRID: (largest_step.on_grid, variant(GRID)),
-    "spam-range-2.5": (largest_step.spam, PRINTED._replace(h=2.5)),
-    "spam-wendland-c2-range-4": (largest_step.spam, variant("spam-wendland-c2")._replace(h=4.0)),
-    "spam-direct-range-2.5": (largest_step.spam, variant("spam-direct")._replace(h=2.5)),
-    **{name: (largest_step.fixed, variant(name)) for name in (LATTICE, NESTED, JITTERED)},
-    "moving-literal-h4": (largest_step.drifting, variant("moving-literal")._replace(h=4.0)),
-    "moving-constant-mass-h4": (largest_step.drifting, variant("moving-constant-mass")._replace(h=4.0)),
-    CARRIED: (largest_step.carried, variant(CARRIED)),
-    MOVING: (largest_step.moving, variant(MOVING)),
 }
 
 
@@ -88,10 +75,6 @@ LENGTHS = (24, 36, 48, 72, 96, 144, 192)
 MORE_SEEDS = 16         # of the longest viscous tube of smooth particles, whose ringing is near its limit
 #: scale, k a, number of seeds
 RIPPLES = ((1.0, 0.25, 3), (1.0, 0.75, 3), (2.0, 0.25, 8), (4.0, 0.25, 7))
-#: viscosity and conductivity, spacing times speed of sound is 1.4: what the step is limited by
-FLUIDS = {"zero viscosity": (0.0, 0.0), "balanced": (0.3, 0.3), "Prandtl 0.01": (0.05, 5.0),
-          "Prandtl 100": (5.0, 0.05)}
-SLOW = (MOVING, "spam-direct-range-2.5")         # methods in two of them only
 #: case -> rows of grids between plates; more where three left undecided what is a tenth off
 ON_GRIDS = {**dict.fromkeys(LAYERS, (16, 32, 48)), "Ra 1e5": (16, 32, 48, 64, 96),
             "high pressure": (16, 32, 48, 64, 96, 128), "wall corner": (12,), "long rest": (ROWS,)}
@@ -107,7 +90,6 @@ def quick() -> Iterator[Case]:
     yield from smooth_tubes((12, 15, 18), (0.0, 0.5), (1,))
     yield from method_tubes((12, 15, 18), 1)
     yield Interface(scale=0.5)
-    yield from limits((GRID, "spam-range-2.5", LATTICE), ("balanced",))
     scene, time = SITUATIONS["Prandtl 100"]
     yield Hard(case="Prandtl 100", method=LATTICE, variant=variant(LATTICE), scene=scene, time=time/10)
 
@@ -124,7 +106,6 @@ def paper() -> Iterator[Case]:
         for seed in range(1, last + 1):
             yield Interface(scale=scale, steep=steep, seed=seed)
     yield from highest()
-    yield from limits(AT_REST, FLUIDS)
     yield from hard()
 
 
@@ -153,16 +134,6 @@ def highest() -> Iterator[Case]:
     for (method, (attempt, chosen)), step in product(IN_LAYERS.items(), high_ra.STEPS):
         for seed in range(1, 4 if method == MOVING else 6):
             yield HighRa(method=method, attempt=attempt, variant=chosen, seed=seed, step=step)
-    yield Steadiness(ra=3.5e5, rows=ROWS)
-
-
-def limits(methods: Iterable[str], scenes: Iterable[str]) -> Iterator[Case]:
-    """Of the time step."""
-    for method, scene in product(methods, scenes):
-        trial, chosen = AT_REST[method]
-        eta, k = FLUIDS[scene]
-        if method not in SLOW or scene in ("balanced", "Prandtl 100"):
-            yield Limit(method=method, trial=trial, variant=chosen, scene=scene, eta=eta, k=k)
 
 
 def hard() -> Iterator[Case]:

@@ -3,7 +3,7 @@
 All have 16 rows or so: the question is who gives way first. Units: spacing, mean density, P/rho at T = 1.
 """
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import pi, sqrt
 from typing import Any, ClassVar, NamedTuple
 
@@ -22,7 +22,6 @@ ROWS = 16
 SOUND = sqrt(2)
 THIN = 1e-3         # density in place of vacuum, for methods whose points fill the box
 SPEED = 0.1         # of the vortex: Mach number 0.07
-STREAM = 10*SPEED
 U, BEGIN = 0.15, 0.01       # of the shear flow: Mach number 0.1; size of the wave over U at the start
 Velocities = tuple[np.ndarray, np.ndarray]
 
@@ -31,19 +30,6 @@ def vortex(x: np.ndarray, y: np.ndarray, L: float) -> Velocities:
     """A steady Taylor-Green vortex, which passes through no plate."""
     k = 2*np.pi/L
     return SPEED*np.sin(k*x)*np.cos(k*y), -SPEED*np.cos(k*x)*np.sin(k*y)
-
-
-def carried(x: np.ndarray, y: np.ndarray, L: float) -> Velocities:
-    """The same in a stream."""
-    u, v = vortex(x, y, L)
-    return u + STREAM, v
-
-
-def round_vortex(x: np.ndarray, y: np.ndarray, L: float) -> Velocities:
-    """SPEED at most, s (1 - s^2)^2 of the distance s = 2 r/L: nothing moves beyond L/2."""
-    s2 = 4*(x**2 + y**2)/L**2
-    turn = 25*sqrt(5)/16*SPEED*np.maximum(1 - s2, 0)**2*2/L
-    return -turn*y, turn*x
 
 
 def sheared(x: np.ndarray, y: np.ndarray, L: float) -> Velocities:
@@ -82,9 +68,6 @@ STRIP = Chamber(L=8.0, aspect=12.0, strip=True)
 CORNER = Chamber(L=12.0, aspect=1.0, viscosity=0.3, heat=0.3, sides=Walls())
 CROWD = Chamber(L=1000.0, aspect=1.0, velocities=vortex)
 CHESSBOARD = Chamber(L=12.0, aspect=1.0, viscosity=0.3, heat=0.3, ripple=0.1)
-SPIN = replace(VORTEX, velocities=round_vortex)
-#: k^2 nu t = 1/2 while the stream goes round the box four times
-SLOW = replace(VORTEX, viscosity=0.05, heat=0.05)
 #: without viscosity; that it conducts heat keeps drifting points from ending at once
 SHEAR_FLOW = Chamber(L=16.0, aspect=2.0, heat=2*pi/16, velocities=sheared)
 #: of the shear flow, and the growth rate of its fastest wave, which is twice as long

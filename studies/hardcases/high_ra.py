@@ -37,7 +37,6 @@ FINE = 48               # rows of the grid that tells what K should be
 RUNGS = tuple(float(f"{10.0**(n/2):.9g}") for n in range(8, 17))        # 1e4 .. 1e8
 KNOWN = 1e6             # Ra up to which K is held against the fine grid
 TIME = 50.0             # free-fall times, as in the map
-SETTLED = 150.0         # free-fall times after which a steady flow has long settled
 SAMPLES, LATE = 60, 41  # of a run; from where on K is averaged, the start being the first
 NOISE = 1e-6            # of the density at the start, by which seeds differ where points do not
 
@@ -184,21 +183,3 @@ class HighRa(Case):
         trials = [{**key, "ra": ra, "k": run.k, "over": run.k/should_be(ra), "reached": run.reached}
                   for ra, run in search.trials.items()]
         return Outcome({"high_ra": rows, "high_ra_trials": trials})
-
-
-@dataclass(frozen=True, kw_only=True)
-class Steadiness(Case):
-    """Does the grid at high Ra come to rest?    [KHP95, Sec. VI]"""
-    ra: float
-    rows: int
-
-    def run(self, report: Report, folder: Path) -> Outcome:
-        scene = layer(self.ra)
-        start = initial(scene, self.rows, START_ENERGY)
-        done, reached = between_plates(start, falls(scene, SETTLED), 4*SAMPLES, report)
-        row = {"ra": self.ra, "rows": self.rows, "reached": reached}
-        if done is not None:
-            quarters = done.series.ke[1:].reshape(4, SAMPLES)
-            *_, before, swing = np.ptp(quarters, axis=1)/quarters.mean(axis=1)
-            row |= {"swing": swing, "before": before}
-        return Outcome({"steadiness": [row]})

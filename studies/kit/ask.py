@@ -27,7 +27,6 @@ from studies.kit.value import (
     WrongQuestion,
     check_columns,
     error_of,
-    log,
     numbers,
     of,
     rows,
@@ -35,7 +34,7 @@ from studies.kit.value import (
 
 __all__ = [
     "NoRows", "Value", "WrongQuestion", "curve", "each", "farthest", "farthest_of", "farthest_per", "first",
-    "largest", "largest_of", "largest_per", "last", "least", "log", "of", "one", "over_seeds", "power",
+    "largest", "largest_of", "largest_per", "last", "least", "of", "one", "over_seeds", "power",
     "question", "rows", "share", "spread", "total",
 ]
 

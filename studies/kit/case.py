@@ -150,6 +150,6 @@ def file_of(module: str | None) -> Path | None:
 
 @cache
 def module_of(path: Path) -> str | None:
-    """Dotted name of a file of our packages: ``python -m studies.rb`` calls itself __main__."""
+    """Dotted name of a file of our packages: ``python -m studies.front`` calls itself __main__."""
     ours = any(path.is_relative_to(ROOT/package) for package in PACKAGES)
     return name_of(path) if ours else None

@@ -58,6 +58,12 @@ def errorbar(axes: Axes, x: Numbers, y: Numbers, err: Numbers, *, number: int = 
     axes.errorbar(x, y, yerr=err, label=label, **{**look(number), "linestyle": "none", **more})
 
 
+def bars(axes: Axes, rows: pd.DataFrame, x: str, y: str, **more: Any) -> None:
+    """A column with its errors over another."""
+    rows = rows.sort_values(x)
+    errorbar(axes, rows[x], rows[y], rows[f"{y}_err"], **more)
+
+
 def plain_ticks(axes: Axes, values: Sequence[float]) -> None:
     """Ticks along x at values, the first ones with their number, others without where numbers would touch."""
     scale = np.log10 if axes.get_xscale() == "log" else float
@@ -73,11 +79,16 @@ def plain_ticks(axes: Axes, values: Sequence[float]) -> None:
     axes.tick_params(axis="x", which="minor", labelbottom=False)
 
 
-def logarithmic(axes: Axes, ticks: Sequence[float]) -> None:
+def ticks(axes: Axes, values: Sequence[float]) -> None:
+    """Along x at these numbers only."""
+    axes.set_xticks(values, labels=[f"{value:g}" for value in values])
+    axes.minorticks_off()
+
+
+def logarithmic(axes: Axes, along: Sequence[float]) -> None:
     """Both scales, with numbers at some places along x, and at more than powers of ten where y has few."""
     axes.set(xscale="log", yscale="log")
-    axes.set_xticks(ticks, labels=[f"{tick:g}" for tick in ticks])
-    axes.minorticks_off()
+    ticks(axes, along)
     low, high = axes.get_ylim()
     if high < 100*low:
         numbered(axes.yaxis)

@@ -83,13 +83,6 @@ def measured(number: "Measured | float") -> Measured:
     return number if isinstance(number, Measured) else Measured(float(number))
 
 
-def log(number: Measured) -> Measured:
-    """Natural logarithm; its error is the relative one."""
-    if number.value <= number.err:
-        raise CannotTell(f"a logarithm of {number.value:.3g} +- {number.err:.2g}: not told from zero")
-    return Measured(float(np.log(number.value)), number.err/number.value)
-
-
 def correlation(x: np.ndarray) -> np.ndarray:
     """Autocorrelation rho(0..n-1) of a series about its mean; rho(0) = 1."""
     n = len(x)

@@ -1,4 +1,4 @@
-"""A study, made of parts, and its command line: python -m studies.NAME [run|figures|claims]."""
+"""A study and its command line: python -m studies NAME [run|figures|claims]."""
 import argparse
 import math
 import os
@@ -9,15 +9,15 @@ import textwrap
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
+from importlib import import_module
 from pathlib import Path
 from typing import Any, NamedTuple
-
-import pandas as pd
 
 from studies.kit.case import Case
 from studies.kit.claim import Claim, judge, put_claims
 from studies.kit.csvfile import OtherTable, locked
 from studies.kit.figure import Drawings, save
+from studies.kit.key import ROOT
 from studies.kit.store import RESULTS, CannotRun, results
 from studies.kit.sweep import GO_ON, CasesFailed, NoSuchCase, Sweep, labelled, load
 from studies.kit.table import SIZES, Row, Rows, Table, Tables, check_once
@@ -40,42 +40,25 @@ class Own(NamedTuple):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Part:
-    """Cases by size, the tables these fill, and what reads the tables."""
-
-    cases: Callable[[str], Iterable[Case]]
-    tables: Sequence[Table]
-    #: rows that follow from the tables (extrapolations, means over seeds), merged into them
-    derive: Callable[[Tables], Rows] = lambda tables: {}
-    figures: Drawings = NO_FIGURES
-    claims: Sequence[Claim] = ()
-
-
-@dataclass(frozen=True, kw_only=True)
-class Study(Part):
-    """One question: a name, a sentence that asks it, and what answers it.
+class Study:
+    """One question: a name, a sentence that asks it; cases by size, their tables, and what reads these.
 
     Raises ValueError: Two tables, figures or claims have one name.
     """
 
     name: str
     question: str = ""
+    cases: Callable[[str], Iterable[Case]]
+    tables: Sequence[Table]
+    #: rows that follow from the tables (extrapolations, means over seeds), merged into them
+    derive: Callable[[Tables], Rows] = lambda tables: {}
+    figures: Drawings = NO_FIGURES
+    claims: Sequence[Claim] = ()
     own: Own | None = None
 
     def __post_init__(self):
         check_once("tables", (table.name for table in self.tables))
         check_once("claims", (claim.id for claim in self.claims))
-
-    @classmethod
-    def of(cls, name: str, question: str, parts: Sequence[Part], own: Own | None = None) -> "Study":
-        """A study of many parts. Rows are derived in order: each part finds what those before it derived."""
-        drawings = [drawing for part in parts for drawing in part.figures.drawings]
-        return cls(name=name, question=question.split("\n")[0], own=own,
-                   cases=lambda size: [case for part in parts for case in part.cases(size)],
-                   tables=[table for part in parts for table in part.tables],
-                   derive=lambda tables: derived(parts, tables),
-                   figures=Drawings(*drawings),
-                   claims=[claim for part in parts for claim in part.claims])
 
     def run(self, size: str, *, out: Path | None = None, cases: Sequence[Case] = (), **more: Any) -> Tables:
         """Cases to tables, derived rows among them; more, such as ``workers``, are fields of `Sweep`.
@@ -118,15 +101,16 @@ class Study(Part):
         return [path for path in paths if path.exists()]
 
 
-def derived(parts: Iterable[Part], tables: Tables) -> Rows:
-    """Rows of all parts, each of which finds the rows of those before it in place of the tables on disk."""
-    rows: dict[str, list[Row]] = {}
-    for part in parts:
-        frames = {name: pd.DataFrame(new) for name, new in rows.items() if new}
-        new = part.derive(Tables({**tables, **frames}))
-        check_once("derived tables", [*rows, *new])
-        rows.update(new)
-    return rows
+def names() -> list[str]:
+    """Of all studies: folders whose `__init__.py` makes a STUDY."""
+    files = sorted((ROOT/"studies").glob("*/__init__.py"))
+    return [path.parent.name for path in files if "\nSTUDY = " in path.read_text()]
+
+
+def study_of(name: str) -> Study:
+    """The study of this name."""
+    study: Study = import_module(f"studies.{name}").STUDY
+    return study
 
 
 def main(study: Study, arguments: Sequence[str] | None = None) -> None:
@@ -146,7 +130,7 @@ def main(study: Study, arguments: Sequence[str] | None = None) -> None:
 
 def parse(study: Study, arguments: Sequence[str] | None) -> argparse.Namespace:
     """Command, size (default: SIZE of the environment, else paper), where it runs, folder, which cases."""
-    parser = argparse.ArgumentParser(prog=f"python -m studies.{study.name}", description=study.question)
+    parser = argparse.ArgumentParser(prog=f"python -m studies {study.name}", description=study.question)
     add = parser.add_argument
     size = os.environ.get("SIZE") or "paper"
     scheduler = os.environ.get("SCHEDULER") or ""

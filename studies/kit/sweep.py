@@ -124,7 +124,7 @@ class Sweep:
         """What makes the tables; a cluster has CPUs that the head of a table does not name."""
         there = " SCHEDULER=tcp://..."*bool(self.scheduler)
         if self.only:
-            return f"python -m studies.{self.study} --size {self.size} --only {shlex.quote(self.only)}{there}"
+            return f"python -m studies {self.study} --size {self.size} --only {shlex.quote(self.only)}{there}"
         return f"make study-{self.study} SIZE={self.size}{there}"
 
 

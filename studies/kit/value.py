@@ -12,7 +12,6 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from studies.kit import stats
 from studies.kit.case import word
 from studies.kit.csvfile import OtherTable
 from studies.kit.stats import CannotTell, Measured
@@ -202,11 +201,6 @@ def lifted(number: Value | float) -> Value:
     if isinstance(number, Value):
         return number
     return Value(lambda tables: Measured(float(number)), f"{number:g}")
-
-
-def log(value: Value) -> Value:
-    """Natural logarithm."""
-    return value.then(stats.log, f"ln({value})")
 
 
 def of(function: Answer) -> Value:

@@ -1,8 +1,8 @@
-"""Is a fluid of smooth particles a lattice, or one of molecules?
+"""When does a fluid of smooth particles behave as a lattice, and what does that cost its convection?
 
 KHP95, Secs II-IV: when lattices pair, clump or melt, and how fast sound is on them; at which pressure
-convection freezes, against the printed criteria; whether paths are those of molecules and run back. Lengths
-are in spacings: particles have unit mass at mean density 1.
+convection freezes, against the printed criteria; which stress lattices bear when they are sheared, and what
+it does to K. Lengths are in spacings: particles have unit mass at mean density 1.
 """
 from studies.kit.study import Study
 from studies.lattices import cases, claims, figures, loss

@@ -12,11 +12,7 @@ from studies.lattices.crystals import LATTICES, Crystal, LatticeGrowth, Onset, S
 from studies.lattices.frozen_flow import Freezing
 from studies.lattices.loss import TABLES as LOSS
 from studies.lattices.loss import Thickened
-from studies.lattices.molecules import METHODS, Fate, Reversal, Twins
 from studies.lattices.stirred import PLATES, SHEARED, Stirred
-
-Numbers = tuple[float, ...]
-Seeds = tuple[int, ...]
 
 WEIGHTS: tuple[type[Weight], ...] = (Lucy, Monaghan, WendlandC2)
 HEXAGONAL = Crystal(lattice=LATTICES["hexagonal"], cells=(14, 8), weight=Lucy, h=3.0, eos=IdealGas())
@@ -50,8 +46,6 @@ def quick() -> Iterator[Case]:
     """A few of each kind."""
     yield from list(growth())[::5]
     yield from list(onsets())[::9]
-    yield from fates((3.0,), (1,))
-    yield from molecules((5.0, 20.0), 5, (1,))
     yield from speeds()
     for U, variant in product((0.05, 0.1, 0.2), ("printed", "less-static-50")):
         yield Stirred(variant=VARIANTS[variant], rows=25, U=U, time=3.0)
@@ -64,10 +58,7 @@ def paper() -> Iterator[Case]:
     """All seeds."""
     yield from growth()
     yield from onsets()
-    yield from fates((2.0, 2.4, 2.8, 3.0, 3.4, 4.0), (1, 2))
-    yield from fates((3.0,), (3, 4, 5, 6))
     yield from freezing()
-    yield from molecules((5.0, 10.0, 20.0, 40.0, 60.0, 80.0, 100.0), 15, (1, 2))
     yield from speeds()
     yield from (*stirred(), *aligned(), *ranges(), *(Thickened(ra=ra) for ra in RAYLEIGH))
 
@@ -91,24 +82,11 @@ def onsets() -> Iterator[Case]:
         yield Onset(crystal=crystal, parameter="T", stable=0.4, unstable=0.15)
 
 
-def fates(ranges: Numbers, seeds: Seeds) -> Iterator[Case]:
-    """One a site or two?"""
-    for weight, h, seed in product(WEIGHTS, ranges, seeds):
-        yield Fate(weight=weight, h=h, seed=seed)
-
-
 def freezing() -> Iterator[Case]:
     """The gas of Fig. 4 with both weights; with shorter steps, too."""
     for weight, seed in product((Lucy, Monaghan), SEEDS):
         yield Freezing(weight=weight, seed=seed)
     yield Freezing(weight=Lucy, step=0.25)
-
-
-def molecules(times: Numbers, samples: int, seeds: Seeds) -> Iterator[Case]:
-    """Paths of molecules, and back."""
-    yield Twins(weight=Lucy, samples=samples)
-    for (name, integrator), seed in product(METHODS.items(), seeds):
-        yield Reversal(name=name, integrator=integrator, weight=Lucy, times=times, seed=seed)
 
 
 def speeds() -> Iterator[Case]:
@@ -174,8 +152,6 @@ GROWTH = Table.of("growth", CRYSTAL, RATES, means={"predicted": RATE, "measured"
 ONSETS = Table.of("onsets", f"{CRYSTAL} parameter seed", RATES,
                   about="Where motions of a lattice begin to grow as `parameter` is changed.",
                   means={"measured": ("value of the parameter", "a or epsilon/kB")})
-FATES = Table.of("fates", "weight h seed", "shared",
-                 about="A gas at rest in the end: one particle a site or two?")
 USUAL = {"step": ("step over that of other studies", "")}
 FREEZING = Table.of("freezing", "weight seed step P", "flow flow_err lindemann",
                     means=USUAL | {"flow": ("K of the mean flow over that of the grid's smoothed field", "")},
@@ -184,12 +160,6 @@ FREEZING_LIMITS = Table.of("freezing_limits", "weight seed step", "measured meas
                            means=USUAL | {"measured": ("P at which K of the mean flow falls below a tenth",
                                                        "epsilon/a^2")},
                            about="The pressure at which that gas freezes.")
-TWINS = Table.of("twins", "weight seed time", "apart",
-                 about="An instant of one path, by smooth particles and as molecules.",
-                 means={"apart": ("rms distance of both", "a")})
-REVERSAL = Table.of("reversal", "integrator weight seed time", "apart equal",
-                    about="A run there and back again.",
-                    means={"time": ("time there", "t0"), "apart": ("rms distance from the start", "a")})
 SPEEDS = Table.of("sound_speeds", "lattice weight", "speed", about="The longest waves along x on a lattice.",
                   means={"speed": ("speed of sound over the fluid's", "")})
 RUN = "variant h corrected rows seed"
@@ -218,4 +188,4 @@ DECAYS = Table.of(
            "predicted": ("the sum of the three beside it", ""), "symbol": ("as in driven", ""),
            "deviator": ("stress of the pressure sum over that of friction, mean over time", ""),
            "kinetic": ("the same of the noise", "")})
-TABLES = (GROWTH, ONSETS, FATES, FREEZING, FREEZING_LIMITS, TWINS, REVERSAL, SPEEDS, DRIVEN, DECAYS, *LOSS)
+TABLES = (GROWTH, ONSETS, FREEZING, FREEZING_LIMITS, SPEEDS, DRIVEN, DECAYS, *LOSS)

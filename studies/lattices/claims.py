@@ -1,11 +1,11 @@
-"""What KHP95 say of smooth particles as lattices and molecules, what keeps them from convergence."""
+"""What KHP95 say of smooth particles as lattices, and what keeps them from convergence."""
 from itertools import product
 from math import hypot
 from typing import Any
 
 import numpy as np
 
-from studies.kit.ask import Value, farthest, largest, least, of, one, over_seeds, power, rows
+from studies.kit.ask import Value, farthest, largest, of, one, over_seeds, power, rows
 from studies.kit.claim import Claim
 from studies.kit.stats import CannotTell, Measured
 from studies.kit.stats import over_seeds as mean_of
@@ -85,19 +85,6 @@ LATTICES = (
           because="beyond 1 it is the particles that clump, not the fluid"),
 )
 
-CHANCE = "of particles at random 0.54 have a neighbour within half a spacing"
-PAIRS = (
-    Claim(id="khp95-hard-pairs-monaghan",
-          source="KHP95 Sec. VI", printed="closely associated pairs", at_least=0.8,
-          value=over_seeds("fates", "shared", weight="Monaghan", h=3.0), because=CHANCE,
-          statement="with Monaghan's weight, h = 3, particles end in pairs: part that has another within "
-                    "half a spacing, gas left to rest"),
-    Claim(id="khp95-hard-pairs-lucy", source="KHP95 Sec. VI", printed="no such pairing", at_most=0.1,
-          value=over_seeds("fates", "shared", weight="Lucy", h=3.0), because=CHANCE,
-          statement="with Lucy's weight, h = 3, particles do not end in pairs: part that has another within "
-                    "half a spacing, gas left to rest"),
-)
-
 RULE = "a criterion from a rule of thumb is good to a factor of two at best"
 MELTING, BARRIER = "mv^2 > 2Pn^-2[w(0.9)-w(1)]", "mv^2 > 2Pn^-2 w(0)"
 FREEZING = (
@@ -128,19 +115,6 @@ FREEZING = (
           value=next_to_limit("<="), because="the printed number",
           statement="where particles flow neighbours' distances fluctuate by more than 10 %: fluctuation in "
                     "the flowing run next to the limit, Lucy, ideal gas, Ra 3000"),
-)
-
-MOLECULES = (
-    Claim(id="khp95-hard-molecules", source="KHP95 Sec. III", printed="identical", at_most=1e-11,
-          value=one("twins", "apart", weight="Lucy", time=10.0),
-          statement="for P ~ rho^2 compiled smooth particles keep paths of molecules: rms distance at "
-                    "t = 10, 64 particles",
-          because="round-off of 1e-16 that grows by a factor of e in a time of 1 at the fastest"),
-    Claim(id="khp95-hard-reversal", headline=True, evidence="lattices/reversal.png",
-          source="KHP95 Sec. III", printed="exact reversibility", expect=1, within=0,
-          value=least("reversal", "equal", integrator="whole numbers"), because="exact is all of them",
-          statement="paths run back exactly when velocities turn: part of the coordinates that come back to "
-                    "the last bit, in whole numbers, times to 100"),
 )
 
 SOUND = (
@@ -215,4 +189,4 @@ STRESS = (
                     "that a force holds over the exact one, Wendland C2, h = 8.5 a, 200 rows",
           because="2 %, a tenth of what a fixed range loses", evidence="lattices/yield.png"),
 )
-CLAIMS = (*LATTICES, *PAIRS, *FREEZING, *MOLECULES, *SOUND, *STRESS)
+CLAIMS = (*LATTICES, *FREEZING, *SOUND, *STRESS)

@@ -118,7 +118,8 @@ def places(method: Spam, done: Run, dt: float) -> np.ndarray:
 
 def neighbours(x: np.ndarray, width: float) -> tuple[np.ndarray, np.ndarray]:
     """Pairs (i, j) of particles (n, 2), periodic in x: of each the six nearest beyond half a spacing."""
-    along, up = x[:, 0] % width % width, x[:, 1] - x[:, 1].min()        # twice: see `molecules.partners`
+    # taken twice: scipy takes no place at the end of the box
+    along, up = x[:, 0] % width % width, x[:, 1] - x[:, 1].min()
     tree = cKDTree(np.stack([along, up], axis=1), boxsize=np.array([width, 3*up.max()]))
     distance, number = tree.query(tree.data, 2*SHELL + 4)
     beyond = distance > SITE

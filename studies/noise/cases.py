@@ -12,24 +12,21 @@ from particles.dissipative.integrators import (
     Shardlow,
     VelocityVerlet,
 )
-from particles.integral.edge_makers import MAKERS, delaunay, renormalised
+from particles.integral.edge_makers import MAKERS
 from particles.integrators import TwoStep
 from studies.build.setting import DISORDERS
 from studies.kit.case import Case
 from studies.kit.table import Table
 from studies.noise import dissipative, partners
-from studies.noise.below_onset import DECAYS, BelowOnset, LayerSampled
+from studies.noise.below_onset import BelowOnset
 from studies.noise.covariance import STEPS as INTEGRATORS
 from studies.noise.dissipative import AtRest, Fluid, LongRun
 from studies.noise.partners import Formula, Partnership
 from studies.noise.printed_noise import Capacity, MovingSteps, PrintedWaves, Steps
-from studies.noise.sampling import Equipartition, Nonlinear
+from studies.noise.sampling import Nonlinear
 
 KINDS = ("lattice", "jittered-0.1", "jittered-0.3", "random")
 DT = (0.01, 0.02, 0.05, 0.1, 0.2, 0.4, 0.8)
-TURNS = ((1, 0), (0, 1), (1, 1), (1, -1), (2, 1), (3, 0), (0, 4), (3, 3), (5, 2), (5, 5))
-TURNS_3D = ((1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 0), (1, 0, -1), (0, 1, 1), (1, 1, 1), (1, -1, 1),
-            (2, 0, 0), (2, 1, 0))
 BELOW = (0.9, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005)
 PRINTED = ((42, "eta"), (42, "zeta"), (23, "zeta"), (43, "kappa"), (25, "kappa"))
 FORMULAS = {
@@ -48,7 +45,7 @@ LONG = 12_000       # steps of a run: its error of kT over dt is what counts, wh
 
 
 def cases(size: str) -> list[Case]:
-    """`quick` has fewer point sets, batches a tenth as long, small boxes and three steps."""
+    """`quick` has fewer point sets, shorter batches, small boxes and three steps."""
     return quick() if size == "quick" else paper()
 
 
@@ -57,9 +54,7 @@ def quick() -> list[Case]:
     return [
         *formulas(), *algebra(("lattice", "jittered-0.3"), {2: (8, 8)}), *printed(), *steps(),
         BelowOnset(rows=6, below=BELOW),
-        Equipartition(counts=(6, 6), turns=TURNS[:6], share=0.1, steps=200),
         Nonlinear(counts=(5, 5), share=0.1, k=1e-3, time=115.0),
-        *about(4, (0.5, 0.1), 10.0),
         *(Capacity(C=20.0, corrected=one, steps=400) for one in (True, False)),
         *temperatures((0.02, 0.04, 0.06), side=5.0, steps=1000),
         LongRun(integrator=Shardlow, side=4.0, time=20.0)]
@@ -70,9 +65,6 @@ def paper() -> list[Case]:
     return [
         *formulas(), *algebra(KINDS, {1: (20,), 2: (10, 12), 3: (5, 5, 6)}), *printed(), *steps(),
         *(BelowOnset(rows=rows, below=BELOW) for rows in (8, 12, 16)),
-        Equipartition(counts=(12, 12), turns=TURNS, share=0.1, steps=1500),
-        *cubes(750),
-        *about(8, (0.5, 0.1, 0.05, 0.02), DECAYS),
         Nonlinear(counts=(8, 8), share=0.1, k=1e-3, time=200.0),
         *(Capacity(C=C, corrected=one, steps=10000) for one in (True, False) for C in (20.0, 50.0)),
         *temperatures(LIQUID, side=8.0, steps=LONG),
@@ -110,19 +102,6 @@ def steps() -> Iterator[Case]:
         yield from (MovingSteps(k=k, dt=DT, both=both) for both in (True, False))
 
 
-def about(rows: int, below: tuple[float, ...], decays: float) -> Iterator[Case]:
-    """Samples of the linear equations about a layer below onset; random numbers of their own."""
-    for number, part in enumerate(below):
-        yield LayerSampled(rows=rows, below=part, seed=11 + number, decays=decays)
-
-
-def cubes(steps: int) -> Iterator[Case]:
-    """Samples in 3D: a lattice with odd sides, which has no corner of its zone; irregular points."""
-    yield Equipartition(counts=(5, 5, 5), turns=TURNS_3D, share=0.1, steps=steps, dt=3.0, maker=renormalised,
-                        disorder=DISORDERS["lattice"])
-    yield Equipartition(counts=(5, 5, 6), turns=TURNS_3D, share=0.0, steps=steps, dt=3.0, maker=delaunay)
-
-
 def temperatures(dts: tuple[float, ...], *, side: float, steps: int) -> Iterator[Fluid]:
     """All integrators and steps."""
     for integrator, dt in product((TwoStep, *GOOD), dts):
@@ -138,8 +117,6 @@ def long_runs() -> Iterator[Fluid]:
 
 # --- tables -------------------------------------------------------------------------------------
 
-VARIANCE = {"ratio": ("variance over its exact value", ""),
-            "wavenumber": ("wave number; none of all waves", "1/a")}
 #: dissipative particles have units of their own, mass, rc and kT of one
 HOT = {"dt": ("time step", "rc (m/kT)^(1/2)"), "time": ("time of the run", "rc (m/kT)^(1/2)"),
        "n": ("number of particles", ""), "P": ("pressure", "kT/rc^3"),
@@ -162,10 +139,6 @@ TABLES = (
              means={"dt": ("time step", "eta/(rho c^2)"),
                     "velocity": ("variance of the velocity, 1 in equilibrium", ""),
                     "error": ("largest error of a covariance of the wave", "")}),
-    Table.of("modes", "points share field turns_x turns_y phase", "wavenumber ratio ratio_err",
-             means=VARIANCE, about="A plane wave of a gas at rest in 2D, sampled."),
-    Table.of("cubes", "points share field turns_x turns_y turns_z phase", "wavenumber ratio ratio_err",
-             means=VARIANCE, about="The same in 3D."),
     Table.of("nonlinear", "share k field", "ratio ratio_err drift",
              about="A field of the full equations with current amplitudes, sampled.",
              means={"k": ("Boltzmann's constant", ""), "ratio": ("variance over that of equilibrium", "")}),
@@ -173,11 +146,6 @@ TABLES = (
              about="The variance of temperatures with current amplitudes.",
              means={"noise": ("corrected: with Ito's correction; current: without", ""),
                     "measured": ("variance of T over T^2", "")}),
-    Table.of("sampled", "flow strength rows wavenumber field", "exact ratio ratio_err",
-             about="A quantity of linear fluctuations about a layer below onset.",
-             means={"field": ("amplitude of the slowest mode, or velocity u along, w across the plates", ""),
-                    "exact": ("variance by Lyapunov's equation, 1 of a field at rest", ""),
-                    "ratio": ("variance of samples over the exact one", "")}),
     Table.of("formulas", "name", "value", about="What a printed formula gives by arithmetic."),
     Table.of("states", "integrator side dt", MEANS, means=HOT,
              about="A steady state of dissipative particles at one step."),

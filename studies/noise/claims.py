@@ -1,33 +1,18 @@
 """What RR98 says of noise and of its steps, judged    [RR98 Eqs 20-25, 40-44, Sec. III B]"""
 from typing import Any
 
-from studies.kit.ask import (
-    Value,
-    farthest,
-    farthest_per,
-    first,
-    largest,
-    largest_per,
-    last,
-    log,
-    one,
-    power,
-    spread,
-)
+from studies.kit.ask import Value, farthest_per, first, largest, largest_per, one, power, spread
 from studies.kit.claim import Claim
 
 MOMENTA = ("stress", "friction", "stress+friction")
 ENERGIES = ("heat", "conduction", "heat+conduction")
 OBEY = "must obey discretized versions of the fluctuation-dissipation expressions"
+USUAL = "usual fluctuation-dissipation"
 INCLUDES = "useful to include the fluctuations"
 ROUND_OFF = "round-off of sums of some ten terms, solves with condition 1e3 in some makers"
-HALF_PER_CENT = "half a per cent: the size that an experiment resolves"
 PERCENT = "1 % is what the paper wants of a step of good integrators"
 RIGHT: dict[str, Any] = {"expect": 1, "within": 0.05,
                          "because": "5 %: waves of 32 spacings on a line are 1/cos^2(0.1) = 1.01"}
-#: samples of the slowest mode within a tenth of onset, by 1 - Ra/Ra_c
-SLOWEST: dict[str, Any] = {"such": "strength <= 0.1", "by": "strength", "need": 2,
-                           "flow": "layer", "field": "slowest"}
 #: integrators of dissipative particles
 GOOD = {"GrootWarren": ("groot-warren", "Groot-Warren with lambda = 1/2"),
         "GrootWarren65": ("groot-warren", "Groot-Warren with lambda = 0.65"),
@@ -39,14 +24,6 @@ GOOD = {"GrootWarren": ("groot-warren", "Groot-Warren with lambda = 1/2"),
 def longest(equation: int, term: str, reading: str, d: int = 1, h: float = 1.5) -> Value:
     """Variance of printed noise over its due, longest wave."""
     return first("printed", "ratio", by="wavenumber", equation=equation, term=term, reading=reading, d=d, h=h)
-
-
-def sampled_power() -> Value:
-    """Power of 1 - Ra/Ra_c in the variance of the slowest mode, first and last sample within a tenth."""
-    variance: dict[str, Any] = {"value": "ratio*exact", "err": "ratio_err*exact", **SLOWEST}
-    nearest, other = first("sampled", **variance), last("sampled", **variance)
-    span = log(first("sampled", "strength", **SLOWEST)/last("sampled", "strength", **SLOWEST))
-    return log(nearest/other)/span
 
 
 def formula(name: str) -> Value:
@@ -64,7 +41,38 @@ def error_of(integrator: str) -> Value:
     return one("steps", "error", integrator=integrator)
 
 
+def due(name: str, printed: str, value: Value, statement: str, headline: bool = True) -> Claim:
+    """Printed noise gives long waves what is due beside Eqs 37, 38; its name begins with the equation."""
+    return Claim(id=f"rr98-fluct-eq{name}", source=f"RR98 Eq. {name[:2]}", printed=printed, **RIGHT,
+                 value=value, statement=statement, headline=headline, evidence="noise/printed.png"*headline)
+
+
+LONG_WAVES = (
+    due("23-single", USUAL, longest(23, "zeta", "single"),
+        "Eq. 23, added once (Eq. 22), with the volume it lacks, gives long waves the right temperature: "
+        "variance over its due, zeta term, a line of nearest neighbours"),
+    due("23-doubled", USUAL, longest(23, "zeta", "doubled"),
+        "Eq. 23, added as pi_ij + pi_ji, with the volume it lacks, gives long waves the right temperature: "
+        "variance over its due, zeta term, a line of nearest neighbours"),
+    due("23-neighbours", USUAL, longest(23, "zeta", "doubled", 2, 3.0),
+        "Eq. 23 does so whatever the reach of the weight, added as pi_ij + pi_ji: variance over its due, 2D, "
+        "h = 3 a", headline=False),
+    due("25-doubled", OBEY, longest(25, "kappa", "doubled"),
+        "Eq. 25, added as J_ij + J_ji, with the volume it lacks, gives long waves the right fluctuation of "
+        "energy: variance over its due, a line of nearest neighbours"),
+    due("42-eta", OBEY, longest(42, "eta", "single", 2, 1.2),
+        "the eta term of Eq. 42, added once, with the volume and time it lacks, gives long shear waves the "
+        "right temperature: variance over its due, square lattice of nearest neighbours", headline=False),
+    due("42-eta-doubled", OBEY, longest(42, "eta", "doubled", 2, 1.2),
+        "the eta term of Eq. 42, added as pi_ij + pi_ji, with the volume and time it lacks, gives long shear "
+        "waves the right temperature: variance over its due, square lattice of nearest neighbours"),
+    due("43-doubled", OBEY, longest(43, "kappa", "doubled"),
+        "Eq. 43, added as J_ij + J_ji, with volume and time, gives long waves the right fluctuation of "
+        "energy at T = 0.7: variance over its due, a line of nearest neighbours; a factor 2 T of the "
+        "variance of Eq. 25 is missing"),
+)
 CLAIMS = (
+    *LONG_WAVES,
     Claim(id="rr98-fluct-eq20-small", source="RR98 Eq. 20", printed="small fluctuations", headline=True,
           expect=1, within=0.03,
           value=one("nonlinear", "ratio", field="rho", k=1e-3),
@@ -82,59 +90,18 @@ CLAIMS = (
           statement="one random stress and heat current a point, or noise along edges, or a mixture: "
                     "largest |Q - 2 kT Gamma|, all makers, points and dimensions, coefficients that vary by "
                     "factors of five"),
-    Claim(id="rr98-fluct-eq23-single", source="RR98 Eq. 23", **RIGHT,
-          headline=True, evidence="noise/printed.png",
-          printed="usual fluctuation-dissipation",
-          value=longest(23, "zeta", "single"),
-          statement="Eq. 23, added once (Eq. 22), with the volume it lacks, gives long waves the right "
-                    "temperature: variance over its due, zeta term, a line of nearest neighbours"),
-    Claim(id="rr98-fluct-eq23-doubled", source="RR98 Eq. 23", **RIGHT,
-          headline=True, evidence="noise/printed.png",
-          printed="usual fluctuation-dissipation",
-          value=longest(23, "zeta", "doubled"),
-          statement="Eq. 23, added as pi_ij + pi_ji, with the volume it lacks, gives long waves the right "
-                    "temperature: variance over its due, zeta term, a line of nearest neighbours"),
-    Claim(id="rr98-fluct-eq23-neighbours", source="RR98 Eq. 23", **RIGHT,
-          printed="usual fluctuation-dissipation",
-          value=longest(23, "zeta", "doubled", 2, 3.0),
-          statement="Eq. 23 does so whatever the reach of the weight, added as pi_ij + pi_ji: variance over "
-                    "its due, 2D, h = 3 a"),
     Claim(id="rr98-fluct-eq24-energy", source="RR98 Eq. 24", printed="symmetric", at_most=1e-12,
           headline=True,
           because=ROUND_OFF,
           value=largest("partners", "abs(sums)", noise=ENERGIES),
           statement="random heat currents change no total energy: largest sum over points, all makers and "
                     "point sets"),
-    Claim(id="rr98-fluct-eq25-doubled", source="RR98 Eq. 25", printed=OBEY, **RIGHT,
-          headline=True, evidence="noise/printed.png",
-          value=longest(25, "kappa", "doubled"),
-          statement="Eq. 25, added as J_ij + J_ji, with the volume it lacks, gives long waves the right "
-                    "fluctuation of energy: variance over its due, a line of nearest neighbours"),
     Claim(id="own-fluct-eq25-onset", source="RR98 Eqs 20-25",
           expect=-1, within=0.02,
           value=farthest_per("rows", power("onset", "velocity - 1", "below", "below < 0.06"), centre=-1),
           because="0.02: other modes add a constant, of 1 % at 0.05 below onset",
           statement="fluctuations of a layer heated from below grow as 1/(Ra_c - Ra) on the way to onset, "
                     "Ra_c by eigenvalues: power of 1 - Ra/Ra_c in <w w> less equilibrium, 0.005 to 0.05"),
-    Claim(id="own-fluct-eq25-onset-seen", source="RR98 Eqs 20-25", at_least=5,
-          value=last("sampled", "ratio*exact", by="exact", err="ratio_err*exact", flow="layer", field="w"),
-          because="equilibrium is 1, rows of the Lyapunov solve add up to 10",
-          statement="and what is about to convect: sampled variance of the velocity across a layer of 8 "
-                    "rows, 2 % below onset, over that at rest"),
-    Claim(id="own-fluct-eq25-onset-sampled", source="RR98 Eqs 20-25",
-          expect=-1, within=0.15,
-          value=sampled_power(),
-          because="0.15: samples reach 0.05, the next power of the distance from onset adds 0.04",
-          statement="sampled fluctuations of the slowest mode grow as 1/(Ra_c - Ra) on the way to onset: "
-                    "power, from 10 % to 2 % below"),
-    Claim(id="own-fluct-equipartition", source="RR98 Eqs 22, 24", expect=1, within=0.005,
-          value=one("modes", "ratio", field="all"), because=HALF_PER_CENT,
-          statement="sampled, all degrees of freedom of a gas at rest together have their variance: mean "
-                    "ratio, jittered points"),
-    Claim(id="own-fluct-equipartition-3d", source="RR98 Eqs 22, 24", expect=1, within=0.005,
-          value=farthest("cubes", "ratio", field="all"), because=HALF_PER_CENT,
-          statement="sampled in 3D, all degrees of freedom of a gas at rest together have their variance: "
-                    "mean ratio, farther from 1 of a lattice and jittered points"),
     Claim(id="rr98-fluct-eq40-euler", source="RR98 Eq. 40", printed=INCLUDES, expect=1, within=0.01,
           because="1 %",
           headline=True, evidence="noise/steps.png",
@@ -151,17 +118,6 @@ CLAIMS = (
           value=stepped("eq40-eq41", "error", "moving"),
           statement="Eqs 40, 41 keep the temperature: kinetic over given less 1, c_T^2 dt/nu = 0.1, points "
                     "that move as printed"),
-    Claim(id="rr98-fluct-eq42-eta", source="RR98 Eq. 42", printed=OBEY, **RIGHT,
-          value=longest(42, "eta", "single", 2, 1.2),
-          statement="the eta term of Eq. 42, added once, with the volume and time it lacks, gives long "
-                    "shear waves the right temperature: variance over its due, square lattice of nearest "
-                    "neighbours"),
-    Claim(id="rr98-fluct-eq42-eta-doubled", source="RR98 Eq. 42", printed=OBEY, **RIGHT,
-          headline=True, evidence="noise/printed.png",
-          value=longest(42, "eta", "doubled", 2, 1.2),
-          statement="the eta term of Eq. 42, added as pi_ij + pi_ji, with the volume and time it lacks, "
-                    "gives long shear waves the right temperature: variance over its due, square lattice of "
-                    "nearest neighbours"),
     Claim(id="rr98-fluct-eq42-zeta", source="RR98 Eqs 23, 42", printed=OBEY, expect=1, within=1e-9,
           because="algebra",
           value=longest(42, "zeta", "single")/longest(23, "zeta", "single"),
@@ -194,12 +150,6 @@ CLAIMS = (
           because="a minor approximation is worth a per cent at most",
           statement="amplitudes at current temperatures are a minor approximation: variance of temperature "
                     "of points with C = 20 k over that of the entropy C ln T"),
-    Claim(id="rr98-fluct-eq43-doubled", source="RR98 Eq. 43", printed=OBEY, **RIGHT,
-          headline=True, evidence="noise/printed.png",
-          value=longest(43, "kappa", "doubled"),
-          statement="Eq. 43, added as J_ij + J_ji, with volume and time, gives long waves the right "
-                    "fluctuation of energy at T = 0.7: variance over its due, a line of nearest neighbours; "
-                    "a factor 2 T of the variance of Eq. 25 is missing"),
     Claim(id="own-fluct-eq44-trace-2d", source="RR98 Eq. 44", expect=0, within=1e-9, because="arithmetic",
           value=formula("trace of Eq. 44"),
           statement="X has no trace in 2D: variance of its trace over d^2; 2/3 must be 2/d"),

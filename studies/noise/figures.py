@@ -36,18 +36,6 @@ def printed(rows: pd.DataFrame) -> Figure:
     return page
 
 
-def onset(rows: pd.DataFrame) -> Figure:
-    """Growth of fluctuations of the vertical velocity on the way to convection, by Lyapunov solves."""
-    page, axes = figure(width=5.2, height=3.4)
-    for number, (n, group) in enumerate(rows.groupby("rows")):
-        axes.plot(group["below"], group["velocity"] - 1, **look(number), label=f"{n:.0f} rows")
-    axes.set(xscale="log", yscale="log", xlabel="$1 - Ra/Ra_c$",
-             ylabel=r"$\langle ww\rangle$/equilibrium $- 1$")
-    page.suptitle("Fluctuations grow as one over the distance from onset")
-    axes.legend()
-    return page
-
-
 def steps(rows: pd.DataFrame) -> Figure:
     """Largest error of a variance over the step, for each integrator, waves of 63 spacings; eq40-eq41: points
     move with new velocities, as printed, eq40-eq40: with old ones.
@@ -66,5 +54,5 @@ def steps(rows: pd.DataFrame) -> Figure:
 
 
 FIGURES = Drawings(
-    Drawing("printed", ("printed",), printed), Drawing("onset", ("onset",), onset),
+    Drawing("printed", ("printed",), printed),
     Drawing("steps", ("steps",), steps))

@@ -10,14 +10,11 @@ from typing import Any
 import numpy as np
 from scipy import sparse
 
-from continuum.fluid import ConstEta, IdealGas
 from particles.integral import fluctuating
-from particles.integral.dih import Dih, Mixed
 from particles.integral.edge_makers import delaunay, renormalised
 from particles.integral.edges import Edges
 from particles.integral.fluctuating import Partners, mismatch
 from particles.integral.points import lattice, random
-from particles.limits import jacobian
 from particles.weights import Lucy, WendlandC2
 from studies.build.setting import Disorder
 from studies.kit.case import Case, Outcome, Report
@@ -27,14 +24,6 @@ ETA, ZETA, KAPPA = 0.3, 0.1, 0.4
 KT = 0.7
 
 # --- a gas at rest ----------------------------------------------------------------------------
-
-
-def rates_at_rest(edges: Edges, share: float, eta: float = ETA, zeta: float = ZETA) -> np.ndarray:
-    """J (N, N) of the gas at rest; share : of transport along edges."""
-    law = ConstEta(eta, KAPPA)
-    dih = Dih(edges=edges, eos=IdealGas(), law=law, zeta=zeta, transport=Mixed(share=share))
-    one, v = np.ones(edges.n), np.zeros((edges.n, edges.d))
-    return jacobian(dih.rates, dih.state(one, v, one))
 
 
 def transport(edges: Edges, share: float, eta: float, zeta: float, kappa: float,
@@ -55,35 +44,6 @@ def noise(V: np.ndarray, of_momenta: Any, of_energies: Any) -> sparse.csr_array:
     per = sparse.diags_array(np.tile(1/V, 2 + d))
     Q = sparse.block_diag([sparse.csr_array((n, n)), of_momenta, of_energies])
     return sparse.csr_array(per@Q@per)
-
-
-def factor(edges: Edges, stress: Partners, heat: Partners) -> sparse.csr_array:
-    """B of a state of densities from those of momenta and energies."""
-    per = sparse.diags_array(np.tile(1/edges.V, edges.d + 1))
-    B = per@sparse.block_diag([stress.B, heat.B])
-    of_rho = sparse.csr_array((edges.n, B.shape[1]))
-    return sparse.csr_array(sparse.vstack([of_rho, B]))
-
-
-def equilibrium(V: np.ndarray, d: int) -> np.ndarray:
-    """Covariance of densities of the gas at rest, all sums fixed.
-
-    rho, v and T are independent, each with variance 1/V: <rho rho> = kT rho/(c_T^2 V), <v v> = kT/(rho V),
-    <T T> = kT^2/(rho C_V V).
-    """
-    to_state = states_of_fields(len(V), d)
-    of_fields = np.diag(np.tile(1/V, 2 + d))
-    C = to_state@of_fields@to_state.T
-    sums = np.kron(np.eye(2 + d), V)
-    of_sums = sums@C
-    return C - of_sums.T@np.linalg.solve(of_sums@sums.T, of_sums)
-
-
-def states_of_fields(n: int, d: int) -> np.ndarray:
-    """(N, N), changes of densities at rest from those of (rho, v, T): eps = rho T."""
-    M = np.eye((2 + d)*n)
-    M[-n:, :n] = np.eye(n)
-    return M
 
 
 # --- partners ---------------------------------------------------------------------------------

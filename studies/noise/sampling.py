@@ -1,4 +1,4 @@
-"""Samples of linear systems, of waves of a gas at rest, of the full equations    [RR98 Eqs 20-25]
+"""Samples of linear systems, and of the full equations    [RR98 Eqs 20-25]
 
 Each mean is made of 20 batches, each ten decay times of the slowest mode or longer, started where the one
 before ended: their scatter, with its t factor, is the error.
@@ -12,16 +12,13 @@ import numpy as np
 
 from continuum.fluid import ConstEta, IdealGas
 from particles.integral.edge_makers import delaunay
-from particles.integral.points import Points, jittered
+from particles.integral.points import jittered
 from particles.integral.thermal import Thermal
 from particles.limits import jacobian, limit_of
-from particles.noise import fill_normals
 from particles.run import Plan, run
-from particles.weights import Lucy
-from studies.build.setting import DISORDERS, Disorder
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import over_seeds, with_errors
-from studies.noise.partners import ETA, KAPPA, ZETA, equilibrium, factor, rates_at_rest, transport
+from studies.noise.partners import ETA, KAPPA, ZETA
 
 BATCHES = 20
 DECAYS = 10         # of the slowest mode, at least, in a batch
@@ -64,19 +61,6 @@ class Sampler:
         return np.array(looks), state
 
 
-def of_matrix(B: Any, dt: float) -> Callable[[int], Kick]:
-    """Kicks B dW."""
-    count = B.shape[1]
-    normals = np.empty((-(-count//4), 4))
-
-    def kicks(seed: int) -> Kick:
-        def kick(state: np.ndarray, step: int) -> np.ndarray:
-            fill_normals(0, len(normals), seed, step, normals)
-            return np.sqrt(dt)*(B@normals.ravel()[:count])
-        return kick
-    return kicks
-
-
 def check_length(J: np.ndarray, time: float) -> None:
     """Raise ValueError: batches are shorter than DECAYS decay times of the slowest mode not conserved."""
     rates = -np.linalg.eigvals(J).real
@@ -89,108 +73,6 @@ def check_length(J: np.ndarray, time: float) -> None:
 def ratio(batches: np.ndarray) -> dict[str, float]:
     """Columns of a mean over batches."""
     return with_errors(ratio=over_seeds(batches))
-
-
-# --- plane waves of a gas at rest -----------------------------------------------------------------
-
-Turns = tuple[int, ...]
-#: field, whole waves along each axis, phase
-Name = tuple[str, Turns, str]
-#: of the tables, by dimension
-TABLE, AXES = {2: "modes", 3: "cubes"}, ("turns_x", "turns_y", "turns_z")
-
-
-@dataclass(frozen=True, kw_only=True)
-class Equipartition(Case):
-    """Variances of plane waves of rho, v and T in a gas at rest in 2D or 3D, over their exact values.
-
-    turns : wave vectors, whole waves along each axis; each has a cosine and a sine.
-    """
-    counts: tuple[int, ...]
-    turns: tuple[Turns, ...]
-    share: float
-    steps: int
-    dt: float = 1.0
-    maker: Callable = delaunay
-    disorder: Disorder = DISORDERS["jittered-0.3"]
-    seed: int = 1
-
-    @property
-    def cost(self) -> float:
-        numbers = (2 + len(self.counts))*np.prod(self.counts)
-        return BATCHES*self.steps*1.5e-9*numbers**2 + 10
-
-    def run(self, report: Report, folder: Path) -> Outcome:
-        points = self.disorder.make(self.counts, self.disorder.size, self.seed)
-        edges = self.maker(points, Lucy.of(h=2.0, d=points.d))
-        V, J = edges.V, rates_at_rest(edges, self.share)
-        B = factor(edges, *transport(edges, self.share, ETA, ZETA, KAPPA, 1.0))
-        names, F = plane_waves(points, V, self.turns)
-        variances = np.einsum("mi,ij,mj->m", F, equilibrium(V, points.d), F)
-        F /= np.sqrt(variances)[:, None]
-        check_length(J, self.steps*self.dt)
-        sampler = Sampler(J=J, kicks=of_matrix(B, self.dt), dt=self.dt, steps=self.steps, seed=self.seed,
-                          look=lambda x: np.append((F@x)**2, whole(V, x)))
-        powers = sampler.batches(start(V, points.d, self.seed), report).mean(axis=1)
-        names.append(("all", (0,)*points.d, "-"))
-        rows = [self.row(*name) | ratio(power) for name, power in zip(names, powers.T, strict=True)]
-        return Outcome({TABLE[points.d]: rows})
-
-    def row(self, field: str, turns: Turns, phase: str) -> dict[str, Any]:
-        """Of one mode, or of all degrees of freedom together, which have no wave number."""
-        k = 2*np.pi*np.linalg.norm(np.divide(turns, self.counts))
-        return {"points": self.disorder.name, "share": self.share, "field": field, "phase": phase,
-                "wavenumber": k or np.nan, **dict(zip(AXES, turns))}
-
-
-def start(V: np.ndarray, d: int, seed: int) -> np.ndarray:
-    """Densities ((2 + d) n,) from rho, v and T of equilibrium, with sums of zero."""
-    rng = np.random.default_rng(seed)
-    state = rng.normal(size=(2 + d, len(V)))/np.sqrt(V)
-    state[-1] += state[0]
-    mean = np.average(state, axis=1, weights=V)
-    return (state - mean[:, None]).ravel()
-
-
-def whole(V: np.ndarray, state: np.ndarray) -> float:
-    """Mean over all degrees of freedom but the conserved sums of what is 1 in equilibrium."""
-    fields = state.reshape(-1, len(V)).copy()
-    fields[-1] -= fields[0]
-    square = (fields**2).sum(axis=0)
-    return float(V@square/len(fields)/(len(V) - 1))
-
-
-def plane_waves(points: Points, V: np.ndarray, turns: tuple[Turns, ...]) -> tuple[list[Name], np.ndarray]:
-    """(field, turns, phase) and rows (m, (2 + d) n) of cosines and sines of v, rho and T = eps - rho."""
-    names, rows = list[Name](), []
-    for m in turns:
-        k = 2*np.pi*np.array(m)/points.box
-        for phase, wave in (("cos", np.cos), ("sin", np.sin)):
-            for field, direction in directions(k).items():
-                names.append((field, m, phase))
-                rows.append(np.kron(direction, V*wave(points.x@k)))
-    return names, np.array(rows)
-
-
-def directions(k: np.ndarray) -> dict[str, np.ndarray]:
-    """What (rho, p, eps) have of each field; velocities along the axes, in 3D along and across k."""
-    frame, names = np.eye(2), ["u", "v"]
-    if len(k) == 3:
-        frame, names = along_and_across(k), ["along", "across", "across 2"]
-    rho, *_, eps = np.eye(2 + len(k))
-    vectors = [*np.pad(frame, ((0, 0), (1, 1))), rho, eps - rho]
-    return dict(zip([*names, "rho", "T"], vectors, strict=True))
-
-
-def along_and_across(k: np.ndarray) -> np.ndarray:
-    """Rows: three unit vectors, the first along k (3,)."""
-    axes = np.eye(3)
-    along = k if k.any() else axes[0]
-    others = axes[np.argsort(np.abs(k))[:2]]
-    return np.linalg.qr(np.stack([along, *others], axis=1))[0].T
-
-
-# --- the full equations -----------------------------------------------------------------------
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -11,12 +11,8 @@ from continuum.fluid import ConstEta, ConstNu, IdealGas, VanDerWaals
 from continuum.scene import RayleighBenard, Walls
 from studies.build.spam import PRINTED, VARIANTS
 from studies.kit.case import Case
-from studies.kit.study import Part
-from studies.onset.claims import ONSET_CLAIMS
-from studies.onset.figures import FIGURES
 from studies.onset.rates import GridGrowth, LinearTheory
 from studies.onset.runs import LINES, GrowthRun, OnsetEnergies, SpamGrowth
-from studies.onset.tables import ALL, derive
 
 PR = 2.0            # of linear theory; heat moves isobarically in the gas, whose nu = kappa makes 2 of it
 DIFFERENCES = (1.0, 0.5, 0.25, 0.1)
@@ -71,6 +67,3 @@ def cases(size: str) -> list[Case]:
     if size == "fine":
         rolls += [particles(rows) for rows in (16, 35, 50)]
     return [THEORY, *growth(grids, differences), *energies, *others, *strong, *chain(*rolls)]
-
-
-PART = Part(cases=cases, tables=ALL, derive=derive, figures=FIGURES, claims=ONSET_CLAIMS)

@@ -1,4 +1,4 @@
-"""What brackets conserve and let grow, the step of Euler, forces along edges    [RR98 Eqs 13, 34-40, 51]"""
+"""What brackets let grow, one kernel, the step of Euler, forces along edges    [RR98 Eqs 13, 34-40, 51]"""
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from math import prod
@@ -8,9 +8,7 @@ from typing import Any, ClassVar, NamedTuple
 import numpy as np
 
 from continuum.exact.waves import LinearGas
-from continuum.fluid import ConstEta, IdealGas
 from continuum.scene import RayleighBenard
-from particles.integral.dih import Dih, NestedFluxes, Pairwise
 from particles.integral.edges import Edges
 from particles.integral.interpolants import W
 from particles.integral.points import Points
@@ -20,11 +18,8 @@ from studies.build.fixed import SCHEMES, fluid
 from studies.build.setting import Disorder
 from studies.build.symbols import lattice_waves
 from studies.kit.case import Case, Outcome, Report
-from studies.operators.equations import rates
 from studies.operators.weights import around, integral
 
-TRANSPORT = {"nested": NestedFluxes(), "printed": NestedFluxes(differences=False),
-             "pairwise": Pairwise(mended=False)}
 VISCOSITIES = (0.0, 0.1)    # rho c a
 C2 = 2.0                    # gamma P/rho of the ideal gas at rho = T = 1
 NULL = 1e-6                 # rates that small belong to waves that the operators do not see
@@ -63,22 +58,6 @@ class PointSet(Case):
     def rows(self, points: Points, edges: Edges) -> Iterator[dict[str, Any]]:
         """What is measured."""
         raise NotImplementedError
-
-
-class Invariance(PointSet):
-    """What a random state loses of mass, momentum and energy, over what is exchanged    [RR98 Eqs 34-36]"""
-    table = "invariance"
-
-    def rows(self, points: Points, edges: Edges) -> Iterator[dict[str, Any]]:
-        rng = np.random.default_rng(0)
-        rho = rng.uniform(0.9, 1.1, edges.n)
-        v = rng.normal(0, 0.2, (edges.n, edges.d))
-        T = rng.uniform(0.9, 1.1, edges.n)
-        for name, transport in TRANSPORT.items():
-            dih = Dih(edges=edges, eos=IdealGas(), law=ConstEta(0.3, 0.4), zeta=0.1, transport=transport)
-            change = rates(dih, dih.state(rho, v, T))
-            lost = np.abs(dih.conserved(change))/(np.abs(change)@edges.V)
-            yield {"transport": name, "lost": lost.max()}
 
 
 class OneKernel(PointSet):

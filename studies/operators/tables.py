@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 
 from studies.kit.fits import power_law
-from studies.kit.stats import Measured, seed_means
+from studies.kit.stats import Measured, seed_means, with_errors
 from studies.kit.table import Row, Rows, Table, Tables
 
 CONTINUUM = Table.of("continuum", "weight d quantity", "value value_err predicted",
@@ -38,9 +38,6 @@ FRICTION = Table.of("friction", "d form h", "eta zeta eta_predicted zeta_predict
                     means={"form": ("A and B as functions of r", ""), "eta": ("viscosity", "")})
 
 POINTS = "maker points d"
-INVARIANCE = Table.of("invariance", f"{POINTS} transport", "seed lost",
-                      about="A random state: what its sums of mass, momentum and energy lose.",
-                      means={"lost": ("largest change of a sum over the sum of its sizes", "")})
 ONE_KERNEL = Table.of("one_kernel", f"{POINTS} seed", "lost",
                       about="A random state without the second kernel of Eq. 14.",
                       means={"lost": ("momentum lost over the sum of its sizes", "")})
@@ -75,8 +72,8 @@ SHEAR_MEANS = Table.of("shear_means", "flow points rows time", "seeds rms rms_er
 SHEAR_ORDERS = Table.of("shear_orders", "flow points time norm", "order order_err", means=TIME,
                         about="How these errors fall with the rows, all runs in one fit.")
 
-ALL = (CONTINUUM, SYMBOLS, LATTICE, EXPONENTIAL, NUMBERS, EQUATIONS, ORDERS, FRICTION, INVARIANCE, ONE_KERNEL,
-       GROWTH, GROWTH_MEANS, EULER, NESTED_GROWTH, WAVES, COEFFICIENTS, TRANSPORT_ORDERS, SHEAR, SHEAR_MEANS,
+ALL = (CONTINUUM, SYMBOLS, LATTICE, EXPONENTIAL, NUMBERS, EQUATIONS, ORDERS, FRICTION, ONE_KERNEL, GROWTH,
+       GROWTH_MEANS, EULER, NESTED_GROWTH, WAVES, COEFFICIENTS, TRANSPORT_ORDERS, SHEAR, SHEAR_MEANS,
        SHEAR_ORDERS)
 
 # --- what follows from them ---------------------------------------------------------------------------------
@@ -100,18 +97,14 @@ def groups(rows: pd.DataFrame, table: Table, by: str) -> Iterator[tuple[Row, pd.
         yield dict(zip(key, values, strict=True)), group
 
 
-def columns(name: str, number: Measured) -> dict[str, float]:
-    """A number and its error as columns."""
-    return {name: number.value, f"{name}_err": number.err}
-
-
 def orders(rows: pd.DataFrame) -> Iterator[Row]:
     """One row a term: the slope of its error, and its projection in the limit of no spacing."""
     for key, group in groups(rows, ORDERS, "cells"):
         if len(group) >= LEAST:
             a = 1/group["cells"].to_numpy()
             order = power_law(a, group["error"]).slope
-            yield key | columns("order", order) | columns("ratio", extrapolated(a, group["ratio"].to_numpy()))
+            limit = extrapolated(a, group["ratio"].to_numpy())
+            yield key | with_errors(order=order, ratio=limit)
 
 
 def extrapolated(a: np.ndarray, values: np.ndarray) -> Measured:
@@ -137,7 +130,7 @@ def coefficients(waves: pd.DataFrame) -> Iterator[Row]:
     """One row a wave; errors from within the runs or from the scatter between point sets: the larger."""
     for mean in seed_means(waves, [*COEFFICIENTS.key, "continuum"], ["measured"]):
         error = Measured(mean["measured"], mean["measured_err"])/mean["continuum"] - 1
-        yield mean | columns("error", error)
+        yield mean | with_errors(error=error)
 
 
 def transport_orders(waves: pd.DataFrame) -> Iterator[Row]:
@@ -147,7 +140,7 @@ def transport_orders(waves: pd.DataFrame) -> Iterator[Row]:
         sure = group[group["error"].abs() > group["error_err"]]
         order = power_law(1/sure["wavelength"], sure["error"]).slope if len(sure) >= LEAST else NOTHING
         limit = endless(*group[["wavelength", "error", "error_err"]].to_numpy(float).T)
-        yield key | columns("order", order) | columns("long", limit)
+        yield key | with_errors(order=order, long=limit)
 
 
 def endless(length: np.ndarray, error: np.ndarray, err: np.ndarray) -> Measured:
@@ -173,7 +166,7 @@ def shear_orders(rows: pd.DataFrame) -> Iterator[Row]:
     errors = rows.melt(["flow", "points", "time", "rows"], NORMS, "norm", "error")
     for key, group in groups(errors, SHEAR_ORDERS, "rows"):
         if group["rows"].nunique() >= LEAST:
-            yield key | columns("order", power_law(1/group["rows"], group["error"]).slope)
+            yield key | with_errors(order=power_law(1/group["rows"], group["error"]).slope)
 
 
 #: table that is derived -> the table that it follows from, and how

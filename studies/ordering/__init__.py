@@ -1,9 +1,6 @@
 """Does Eq. 45 of RR98, spacing < r0 < wavelength, govern the error of operators and of whole flows?"""
-from studies.kit.study import Part, Study
-from studies.ordering.cases import cases
-from studies.ordering.claims import CLAIMS
-from studies.ordering.figures import FIGURES
-from studies.ordering.tables import ALL, derive
+from studies.kit.study import Study
+from studies.ordering import cases, claims, figures, tables
 
-STUDY = Study.of("ordering", __doc__, (Part(cases=cases, tables=ALL, derive=derive, figures=FIGURES,
-                                            claims=CLAIMS),))
+STUDY = Study(name="ordering", question=__doc__, cases=cases.cases, tables=tables.ALL, derive=tables.derive,
+              figures=figures.FIGURES, claims=claims.CLAIMS)

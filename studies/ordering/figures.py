@@ -6,7 +6,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from studies.kit.figure import Drawing, Drawings, below, errorbar, figure, logarithmic, look
+from studies.kit.figure import Drawing, Drawings, bars, below, figure, logarithmic, look
 from studies.ordering.cases import IRREGULAR, ROWS
 from studies.ordering.tables import WANTED, WIDTH
 
@@ -20,13 +20,6 @@ LENGTHS = {"taylor-green": r"$\lambda", "convection": "$L"}
 MADE = ("delaunay", "exact", "closed", "renormalised")
 
 
-def bars(axes: Axes, group: pd.DataFrame, x: str, y: str, number: int, label: str) -> None:
-    """A curve with its errors."""
-    group = group.sort_values(x)
-    err = group[f"{y}_err"]
-    errorbar(axes, group[x], group[y], err, number=number, linestyle="-", label=label)
-
-
 def surface(means: pd.DataFrame) -> Figure:
     """Errors of gradient and Laplacian of waves over the range of the weight: must a < r0 < lambda hold?"""
     rows = means.query("maker == 'renormalised'")
@@ -38,7 +31,8 @@ def surface(means: pd.DataFrame) -> Figure:
         for axes, kind in zip(line, kinds):
             for wavelength, group in rows[rows.points == kind].groupby("wavelength"):
                 number = wavelengths.index(wavelength)
-                bars(axes, group, "h", operator, number, rf"$\lambda$ = {wavelength} $a$")
+                bars(axes, group, "h", operator, number=number, linestyle="-",
+                     label=rf"$\lambda$ = {wavelength} $a$")
                 curves[number] = axes.containers[-1]
             logarithmic(axes, RANGES)
         line[0].set_ylabel(f"relative rms error of {name}")
@@ -62,7 +56,7 @@ def makers(means: pd.DataFrame) -> Figure:
             group = rows[rows.maker == maker].query("h == h.max()")     # triangles are the same for all
             if len(group):
                 label = maker + ", $h = 3a$"*(maker != "delaunay")
-                bars(axes, group, "wavelength", "gradient", number, label)
+                bars(axes, group, "wavelength", "gradient", number=number, linestyle="-", label=label)
         x = np.array([16.0, 96.0])
         axes.plot(x, 0.35*(16/x)**2, color="grey", linestyle=":", marker="", label=r"$\lambda^{-2}$")
         axes.set(title=kind, xlabel=r"wavelength $\lambda/a$")
@@ -87,7 +81,7 @@ def curve(axes: Axes, rows: pd.DataFrame, x: str, number: int, label: str) -> No
     missing = len(rows) - len(known)
     label += f" (lost: {missing} of {len(rows)})" if missing else ""
     sizes = known.assign(error=known.error.abs())
-    bars(axes, sizes, x, "error", number, label)
+    bars(axes, sizes, x, "error", number=number, linestyle="-", label=label)
     low = known.query("error < 0")
     style = look(number) | {"linestyle": "none", "markerfacecolor": "white"}
     axes.plot(low[x], -low.error, **style, zorder=5)

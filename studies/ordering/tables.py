@@ -13,7 +13,7 @@ from particles.integral.interpolants import moment
 from particles.weights import Lucy
 from studies.kit.ask import one
 from studies.kit.csvfile import read
-from studies.kit.fits import power_law
+from studies.kit.fits import crossing, power_law
 from studies.kit.stats import seed_means
 from studies.kit.sweep import RESULTS
 from studies.kit.table import Row, Rows, Table, Tables
@@ -187,17 +187,12 @@ def needed(group: pd.DataFrame) -> dict[str, float]:
     pair = group.iloc[above[-1]:above[-1] + 2]
     if len(pair) < 2 or not np.isfinite(pair["error"].iloc[0]):
         return {"needed": np.nan, "needed_err": np.nan, "exchanges": np.nan, "bound": 0}
-    return crossing(pair) | {"bound": 0}
+    return at_level(pair) | {"bound": 0}
 
 
-def crossing(pair: pd.DataFrame) -> dict[str, float]:
-    """Between two resolutions with errors above and below 1 %, by a power law."""
-    coarse, fine = pair["error"]
-    size = np.log(pair["resolution"].astype(float))
-    share = np.log(coarse/WANTED)/np.log(coarse/fine)
-    weights = np.array([1 - share, share])
-    order = np.log(coarse/fine)/np.diff(size)[0]
-    unsure = np.linalg.norm(weights*pair["error_err"]/pair["error"])/order
-    resolution = np.exp(weights@size)
-    return {"needed": resolution, "needed_err": resolution*unsure,
-            "exchanges": np.exp(weights@np.log(pair["exchanges"]))}
+def at_level(pair: pd.DataFrame) -> dict[str, float]:
+    """Between two resolutions with errors above and below 1 %, by power laws."""
+    pair = pair.assign(resolution_err=0.0, exchanges_err=0.0)
+    resolution, half = crossing(pair, "resolution", WANTED)
+    exchanges, _ = crossing(pair, "exchanges", WANTED)
+    return {"needed": resolution, "needed_err": resolution*half, "exchanges": exchanges}

@@ -16,11 +16,10 @@ from studies.build.moving import DriftMotion, FacesMotion
 from studies.build.spam import Variant
 from studies.build.words import name_of
 from studies.kit.case import Case
-from studies.kit.study import Own, Part, Study
+from studies.kit.study import Own, Study
 from studies.kit.sweep import NoSuchCase
 from studies.kit.table import Tables
-from studies.rb import cases, tables
-from studies.rb.runs.arithmetic import SUBJECTS, WithoutFlow
+from studies.rb import cases, claims, derive, figures, tables
 from studies.rb.runs.points import DihRun, DriftRun, MovingRun
 from studies.rb.runs.spam import SpamRun
 
@@ -84,5 +83,5 @@ def lines(frame: pd.DataFrame) -> Iterator[str]:
         yield f"{size:>8}  {value:<20}  {name_of(method, variant) or f'{method} {variant}'}"
 
 
-NUMBERS = Part(cases=lambda size: [WithoutFlow(numbers=subject) for subject in SUBJECTS], tables=())
-STUDY = Study.of("rb", __doc__, (cases.PART, NUMBERS), Own(own, beside))
+STUDY = Study(name="rb", question=__doc__.split("\n")[0], cases=cases.cases, tables=tables.ALL,
+              derive=derive.derive, figures=figures.figures, claims=claims.RB_CLAIMS, own=Own(own, beside))

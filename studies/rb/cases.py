@@ -15,12 +15,8 @@ from studies.build.grid import FORMS
 from studies.build.measure import Smoothing
 from studies.build.spam import PRINTED, VARIANTS, Variant
 from studies.kit.case import Case
-from studies.kit.study import Part
-from studies.rb import tables
-from studies.rb.claims import RB_CLAIMS
-from studies.rb.derive import derive
-from studies.rb.figures import figures
 from studies.rb.points import points
+from studies.rb.runs.arithmetic import SUBJECTS, WithoutFlow
 from studies.rb.runs.grid import BoussinesqSteady, CompressibleApproach, CompressibleSteady, PypdeSteady
 from studies.rb.runs.spam import SpamRun
 
@@ -72,7 +68,8 @@ def seen_by(scene: RayleighBenard) -> Iterator[Smoothing]:
 def cases(size: str) -> list[Case]:
     """All cases of a size; `fine` has those of `paper` besides its own."""
     parts = {"quick": (quick,), "paper": (paper,), "fine": (paper, fine, points)}[size]
-    return [case for part in parts for case in part()]
+    numbers = (WithoutFlow(numbers=subject) for subject in SUBJECTS)
+    return [*(case for part in parts for case in part()), *numbers]
 
 
 def quick() -> Iterator[Case]:
@@ -191,6 +188,3 @@ def fine() -> Iterator[Case]:
         yield CompressibleApproach(scene=RayleighBenard(ra=ra), rows=rows, t_end=2.1*ra**0.5)    # 2.1 L^2/eta
     yield gas(3000.0, (16, 24, 32), form="paper-form", longest=20.0, **DENSE)
     yield CompressibleApproach(scene=RayleighBenard(ra=3e3, **DENSE), rows=24, t_end=22*(3000/1.5)**0.5)
-
-
-PART = Part(cases=cases, tables=tables.ALL, derive=derive, figures=figures, claims=RB_CLAIMS)

@@ -2,7 +2,6 @@
 from collections.abc import Iterator
 from itertools import product
 
-from continuum.fluid import ConstNu
 from continuum.scene import RayleighBenard, Walls
 from studies.build.fixed import SCHEMES
 from studies.build.moving import CARRIAGES, DRIFT_MOTIONS, MOTIONS
@@ -26,8 +25,6 @@ def points() -> Iterator[Case]:
     for ra in (5e3, 1e4):
         for height in (25.0, 40.0, 50.0, 64.0, 80.0):
             yield from on_points(RayleighBenard(ra=ra, L=height))
-    for height in (25.0, 40.0, 50.0):
-        yield DihRun(scene=RayleighBenard(ra=1e4, L=height, transport=ConstNu))
     yield from carried()
     few, many = RayleighBenard(ra=1e4, L=25.0), RayleighBenard(ra=1e4, L=40.0)
     # seeds differ by 0.03 %, ingredients by more

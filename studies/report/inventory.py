@@ -1,5 +1,4 @@
 """What results/ holds: studies with their tables and figures, found by name, and where each comes from."""
-import importlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -11,8 +10,7 @@ import pandas as pd
 from studies.kit.claim import COLUMNS
 from studies.kit.csvfile import TEXT, content, read
 from studies.kit.figure import Drawing
-from studies.kit.key import ROOT
-from studies.kit.study import Study
+from studies.kit.study import Study, names, study_of
 from studies.kit.table import STAMP
 
 #: folders that are not shown
@@ -102,18 +100,12 @@ def place(name: str, order: Sequence[str]) -> int:
 
 def folder_of(path: Path) -> Folder:
     """A folder, its figure `main` first."""
-    study = study_of(path.name)
+    study = study_of(path.name) if path.name in names() else None
     declared = {table.file: [*table.columns, *STAMP] for table in (study.tables if study else ())}
     files = sorted([*path.glob("*.csv"), *path.glob("*.csv.gz")])
     sheets = [Sheet(file, declared.get(file.name, ())) for file in files]
     pictures = sorted(path.glob("*.png"), key=lambda png: (png.stem != "main", png.stem))
     return Folder(path.name, study.question if study else OF_BENCH, sheets, pictures, study)
-
-
-def study_of(name: str) -> Study | None:
-    """The study of this name, if there is one."""
-    there = (ROOT/"studies"/name/"__main__.py").exists()
-    return importlib.import_module(f"studies.{name}").STUDY if there else None
 
 
 def drawings(folder: Folder) -> dict[str, Drawing]:

@@ -4,8 +4,9 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from studies.kit.csvfile import write_atomic
+from studies.kit.study import study_of
 from studies.kit.table import Table
-from studies.report.inventory import FIRST, NoReport, study_of
+from studies.report.inventory import FIRST, NoReport
 from studies.report.page import FILMS
 
 #: column -> (meaning, unit), the same in all tables that do not say otherwise
@@ -54,9 +55,7 @@ def text() -> str:
 def folders() -> Iterator[tuple[str, Sequence[Table]]]:
     """Folders of results with their tables, in the order of the page."""
     for name in FIRST:
-        study = study_of(name)
-        if study:
-            yield name, study.tables
+        yield name, study_of(name).tables
     yield from OTHERS.items()
 
 

@@ -112,9 +112,6 @@ CLAIMS = (
     own("plates", "plates that slide along with the stream change nothing, either: |K in the fastest stream "
         "- K at rest|/K of convection, 24 rows", "1 %, the error at which methods are compared",
         abs(error("convection", "K", rows=24) - error("convection", "K", stream=0.0, rows=24)), at_most=0.01),
-    own("mixing", "in a stream points that move mix less by themselves than a grid: error of the variance "
-        "of a wound-up stripe over the compressible grid's, 32 rows, the fastest stream", "less is below 1",
-        abs(error("mixing", "variance")/error("mixing", "variance", "grid")), at_most=1),
     own("closed-faces", "closed faces do not see a stream, either: share of runs in streams of 1 or more "
         "that come to their end", "every run: without a stream all do",
         share("runs", "error == error", "stream >= 1", method="moving"), at_least=1),

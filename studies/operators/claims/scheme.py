@@ -92,11 +92,6 @@ BRACKETS = (
                       "factor 2/d, is right to second order in 2D on a lattice: slope of the error against "
                       "exact derivatives of a smooth flow")
       for n, what in ((34, "mass"), (35, "momentum"), (36, "energy"))),
-    Claim(id="rr98-eq34-36-conserved", source="RR98 Eqs 34-36", printed="are conserved", at_most=1e-12,
-          headline=True, because=EDGES, value=largest("invariance", "lost"),
-          statement="mass, momentum and energy are conserved by construction: largest loss over what is "
-                    "exchanged, six makers of edges, nested, printed and pairwise transport, lattice, "
-                    "jittered and random points, 1 to 3 dimensions"),
     Claim(id="own-eq35-rest", source="RR98 Eq. 35", at_most=1e-12, because=EDGES,
           value=one("growth_means", "closure", **PLAIN),
           statement="a fluid of uniform pressure stays at rest: largest acceleration over P/(rho a), plain "

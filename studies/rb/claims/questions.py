@@ -88,13 +88,7 @@ def refuse_diverged(point: Point) -> Callable[[Tables], None]:
 
 
 def one_flow(tables: Tables, point: Point) -> pd.Series:
-    """The row of `means` of one point.
-
-    Raises
-    ------
-    CannotTell
-        All runs diverged, or seeds ended in different flows: which one the point has is a matter of chance.
-    """
+    """The row of `means` of one point; refused where all runs diverged, or seeds ended in different flows."""
     if diverged(tables, point).all():
         raise CannotTell(f"all runs of {point['method']}, {point['variant']} at Ra {point['ra']:g} diverged")
     row = rows(tables, "means", **point).iloc[0]

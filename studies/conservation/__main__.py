@@ -1,5 +1,0 @@
-"""python -m studies.conservation [run|figures|claims]"""
-from studies.conservation import STUDY
-from studies.kit.study import main
-
-main(STUDY)

@@ -1,5 +1,0 @@
-"""python -m studies.cost [run|figures|claims]"""
-from studies.cost import STUDY
-from studies.kit.study import main
-
-main(STUDY)
