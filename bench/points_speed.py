@@ -16,7 +16,9 @@ import pandas as pd
 
 from bench.spam_speed import COLUMNS, time_row
 from continuum.scene import RayleighBenard
+from particles.integral.carried import complete, follow, read, stage
 from particles.integral.layer import LayerSums
+from particles.integral.rings import geometry
 from particles.integrators import RK4
 from particles.limits import limit_of
 from particles.run import Plan, run
@@ -30,18 +32,38 @@ SCENE = RayleighBenard(ra=1e4, L=100.0)
 REPEATS, EVALUATIONS, STEPS = 21, 10, 12
 
 
-def fixed(name: str, fast: bool = True) -> Callable[[], float]:
-    """Nanoseconds a point and evaluation of one scheme on fixed points."""
-    method, state, _ = ready(SCENE, name)
-    method = replace(method, form=None if fast else LayerSums)
-    sums, out, n = method.start(state.shape[1], Threads(1)), np.empty_like(state), state.shape[1]
-
+def called(n: int, loop: Callable, *arguments: Any) -> Callable[[], float]:
+    """Nanoseconds a point of a loop over n points."""
     def measure() -> float:
         began = time.process_time()
         for _ in range(EVALUATIONS):
-            sums.rates(state, out)
+            loop(*arguments)
         return 1e9*(time.process_time() - began)/(EVALUATIONS*n)
     return measure
+
+
+def fixed(name: str, fast: bool = True) -> Callable[[], float]:
+    """An evaluation of one scheme on fixed points."""
+    method, state, _ = ready(SCENE, name)
+    method, n = replace(method, form=None if fast else LayerSums), state.shape[1]
+    return called(n, method.start(n, Threads(1)).rates, state, np.empty_like(state))
+
+
+def parts_of_a_step(ahead: int = 30) -> dict[str, Callable[[], float]]:
+    """Loops of a step of points that move with their triangulation; four stages read and exchange."""
+    method, y, dt = ready(SCENE, "moving-delaunay")
+    n, one = y.shape[1], Threads(1)
+    sums = method.start(n, one)
+    sums.march(y, dt, ahead)
+    fluid, rings, bench = sums.fluid, sums.rings, sums.bench
+    geometry_of = (0, n, bench.middle, rings, bench.V, bench.pull, bench.spread, bench.crossed)
+    return {"moving delaunay: edges, volumes": called(n, geometry, *geometry_of),
+            "moving delaunay: strain, stress of triangles": called(n, follow, one, n, fluid, rings, bench),
+            "moving delaunay: stress of triangles again": called(n, complete, one, n, 1.0, rings, bench),
+            "moving delaunay: fields, four times": called(n, read, one, n, y, fluid.eos, fluid.law,
+                                                          bench.points),
+            "moving delaunay: exchange, four times": called(n, stage, one, n, 0.0, 1.0, fluid, rings.edges,
+                                                            bench, y)}
 
 
 def step(method: Any, first: np.ndarray, evaluations: int = 1, ahead: int = 30) -> Callable[[], float]:
@@ -71,15 +93,9 @@ def bracket(name: str) -> Callable[[], float]:
     """An evaluation of RR98's own motions: pairs in range, fields, sums."""
     method, state, _ = ready(SCENE, name)
     n = state.shape[1]
-    sums, out = method.start(n, Threads(1)), np.empty_like(state)
+    sums = method.start(n, Threads(1))
     sums.around.relist(state, np.arange(n), 0.0)
-
-    def measure() -> float:
-        began = time.process_time()
-        for _ in range(EVALUATIONS):
-            sums.rates(state, out)
-        return 1e9*(time.process_time() - began)/(EVALUATIONS*n)
-    return measure
+    return called(n, sums.rates, state, np.empty_like(state))
 
 
 def marched(name: str) -> Callable[[], float]:
@@ -96,6 +112,7 @@ def main() -> None:
              "moving points, a step": closed("moving"),
              "moving points, a step, open faces": closed("moving-open-faces"),
              "moving delaunay, a step": step(*ready(SCENE, "moving-delaunay")[:2], ahead=0),
+             **parts_of_a_step(),
              "moving, plain bracket": bracket("moving-literal-printed-heat"),
              "moving, plain bracket, mended": bracket("moving-literal"),
              "moving, plain bracket, constant mass": bracket("moving-constant-mass-printed-heat"),
@@ -109,7 +126,7 @@ def main() -> None:
     points = round(SCENE.width*SCENE.L)
     rows = [time_row(name, points, 1, values) for name, values in found.items()]
     for row in rows:
-        print(f"{row['what']:40s} {row['ns_per_particle_evaluation']:8.1f} ns  ({row['q25']:.1f} to "
+        print(f"{row['what']:44s} {row['ns_per_particle_evaluation']:8.1f} ns  ({row['q25']:.1f} to "
               f"{row['q75']:.1f})")
     FILE.parent.mkdir(parents=True, exist_ok=True)
     table = pd.DataFrame(rows, columns=COLUMNS).assign(cpu=cpu(), versions=versions(), date=now(),
