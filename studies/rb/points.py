@@ -27,7 +27,7 @@ def points() -> Iterator[Case]:
     for ra in (5e3, 1e4):
         for height in (25.0, 40.0, 50.0, 64.0, 80.0):
             yield from on_points(RayleighBenard(ra=ra, L=height))
-    for name, rows in product(NEAREST, (12, 14, 16, 20, 24, 28, 32, 40)):
+    for name, rows in product(NEAREST, (12, 14, 16, 20, 24, 28, 32, 40, 50, 64)):
         yield DihRun(scene=RayleighBenard(ra=5e3, L=float(rows)), variant=SCHEMES[name])
     yield from carried()
     few, many = RayleighBenard(ra=1e4, L=25.0), RayleighBenard(ra=1e4, L=40.0)

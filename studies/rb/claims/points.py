@@ -16,7 +16,7 @@ from studies.rb.tables import besides, grid, points
 
 RA = 1e4
 LATTICES = (25, 40, 50, 64, 80)     # rows
-NEAREST = (12, 14, 16, 20, 24, 28, 32, 40)
+NEAREST = (16, 20, 24, 28, 32, 40, 50, 64)
 CARRIED_ROWS = (12, 16, 20, 25, 32, 40)     # their errors are above those of the grid's limit
 FEW, MANY = 25, 40                  # rows of moving points
 
@@ -132,7 +132,7 @@ CLAIMS = (
     Claim(id="own-rb-lattice-third-power", source=SOURCE, at_most=0.25,
           value=abs(third_power("fixed-lattice-h1.2-viscous-plates")/third_power("fixed-lattice-h1.2")),
           because="a cause of most of it takes three quarters away",
-          after="the third power had been seen, and its cause by a first look at the same sizes",
+          after="the third power had been seen, and its cause by a first look at some of these sizes",
           statement="the error in 1/rows^3 is of the pressure of images, which goes on hydrostatically where "
                     "the plate also has eta d2v/dy2: the coefficient of 1/rows^3 in K with that slope over "
                     "the one without, Ra 5000"),
