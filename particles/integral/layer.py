@@ -39,8 +39,7 @@ class LayerSums(FixedSums):
                          OwnPressure(method.eos, self.open, n, threads))
 
     def surround(self, state: np.ndarray) -> None:
-        method, plate_T = self.method, self.at.images.plate_T
-        _images(self.parent, plate_T, self.rise, method.g, method.viscous, self.points, self.n)
+        _images(self.parent, self.at.images.plate_T, self.rise, self.method.g, self.points, self.n)
 
     def heat_through(self, plate: int) -> float:
         """Heat per time that enters through plate 0 (lower) or 1; needs fields looked at."""
@@ -64,13 +63,12 @@ class LinearSums(LayerSums):
 
 
 @jit
-def _images(parent, plate_T, rise, g, viscous, points, n):
-    """At a plate dP/dy = eta d2v/dy2 - rho g, where v = d2v/dy2 y^2/2; `viscous` is a share of the first."""
+def _images(parent, plate_T, rise, g, points, n):
     for m in range(len(parent)):
         a, b = points[parent[m]], points[n + m]
         b.rho, b.vx, b.vy, b.T, b.eps = a.rho, a.vx, -a.vy, a.T, a.eps
         b.ux, b.uy, b.Td, b.eta, b.k = -a.ux, -a.uy, 2*plate_T[m] - a.Td, a.eta, a.k
-        b.hydro = rise[m]*(a.rho*g - viscous*a.eta*8*a.vy/rise[m]**2)
+        b.hydro = a.rho*g*rise[m]
 
 
 #: sums in another form, for fluids that allow it: equation of state, law, and transport
@@ -83,8 +81,7 @@ class Layer(OnPoints):
 
     edges, beyond : of `edges.between_plates`. transport : listed terms of friction and heat: `MENDED`,
     `PRINTED` as Eq. 51 has it, or of `nested.mixed`. form : which sums, None for those that suit the fluid
-    best, `LayerSums` for those that all fluids have, edge by edge. viscous : share of eta d2v/dy2 in the
-    slope of the pressure across plates.
+    best, `LayerSums` for those that all fluids have, edge by edge.
     """
     x: np.ndarray
     edges: Edges
@@ -95,7 +92,6 @@ class Layer(OnPoints):
     g: float
     transport: tuple = MENDED
     form: type[LayerSums] | None = None
-    viscous: float = 0.0
 
     @cached_property
     def fastest(self) -> tuple[float, float]:
@@ -104,7 +100,7 @@ class Layer(OnPoints):
     @property
     def sums(self) -> type[LayerSums]:
         known = type(self.eos), type(self.law), self.transport
-        return self.form or (LayerSums if self.viscous else FORMS.get(known, LayerSums))
+        return self.form or FORMS.get(known, LayerSums)
 
 
 class Driving(LayerSums):

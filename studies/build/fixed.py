@@ -40,8 +40,7 @@ class Scheme(NamedTuple):
     """One way to make points and edges.
 
     size : of the points' disorder, in spacings. share : of transport along edges.
-    held : plates are rows of points that are held, in place of mirror images behind them. viscous : share of
-    eta d2v/dy2 in the slope of the pressure across plates with images.
+    held : plates are rows of points that are held, in place of mirror images behind them.
     """
     name: str
     make: Callable = renormalised
@@ -52,7 +51,6 @@ class Scheme(NamedTuple):
     share: float = 1.0
     points: Callable = positions
     held: bool = False
-    viscous: float = 0.0
 
     def refuses(self, scene: Any) -> str:
         return sticking(scene) if self.held and isinstance(scene.sides, Sides) else no_layer(scene)
@@ -71,7 +69,6 @@ SCHEMES = {s.name: s for s in (
     Scheme("fixed-lattice"),
     Scheme("fixed-lattice-printed-heat", mended=False),     # Eq. 51, heated by its forces alone
     Scheme("fixed-lattice-h1.2", h=1.2),
-    Scheme("fixed-lattice-h1.2-viscous-plates", h=1.2, viscous=1.0),
     Scheme("fixed-lattice-h3", h=3.0),
     Scheme("fixed-lattice-monaghan", weight=Monaghan),
     Scheme("fixed-lattice-wendland-c2", weight=WendlandC2),
@@ -108,8 +105,7 @@ def layer(scene: Any, scheme: Scheme, seed: int) -> Layer:
         edges, beyond = between_plates(scheme.make, x, *box, weight)
     kind: Any = partial(Driven, slide=(0.0, scene.slide)) if scene.slide else Layer
     return kind(x=x, edges=edges, beyond=beyond, eos=scene.eos, law=scene.law, g=scene.g,
-                T_plates=(scene.T_hot, scene.T_cold), transport=mixed(scheme.share, scheme.mended),
-                viscous=scheme.viscous)
+                T_plates=(scene.T_hot, scene.T_cold), transport=mixed(scheme.share, scheme.mended))
 
 
 def with_term(method: Any, term: Any) -> Layer:

@@ -16,7 +16,6 @@ from studies.rb.tables import besides, grid, points
 
 RA = 1e4
 LATTICES = (25, 40, 50, 64, 80)     # rows
-NEAREST = (16, 20, 24, 28, 32, 40, 50, 64)
 CARRIED_ROWS = (12, 16, 20, 25, 32, 40)     # their errors are above those of the grid's limit
 FEW, MANY = 25, 40                  # rows of moving points
 
@@ -38,15 +37,6 @@ def order(variant: str, heights: tuple[int, ...], less: str = "") -> Value:
             return error(variant, height)
         return abs(mean(points(RA, variant, height)) - mean(points(RA, less, height)))
     return of(slope)
-
-
-def third_power(variant: str) -> Value:
-    """c_3 of K = c_0 + c_2/rows^2 + c_3/rows^3 + c_4/rows^4 at Ra 5000."""
-    def power(tables: Tables) -> Measured:
-        K = [mean(points(5e3, variant, height))(tables).value for height in NEAREST]
-        X = (1/np.array(NEAREST, float)[:, None])**np.array([0, 2, 3, 4])
-        return fits.linear(X, K).along([0, 0, 1, 0])
-    return of(power)
 
 
 def from_grid(variant: str, height: int) -> Value:
@@ -129,13 +119,6 @@ CLAIMS = (
           expect=2, within=0.1, because="second order, as all sums here are on a lattice",
           statement="the error of K on a fixed lattice falls as the square of the spacing: order over 25 "
                     "to 80 rows, Ra 10000"),
-    Claim(id="own-rb-lattice-third-power", source=SOURCE, at_most=0.25,
-          value=abs(third_power("fixed-lattice-h1.2-viscous-plates")/third_power("fixed-lattice-h1.2")),
-          because="a cause of most of it takes three quarters away",
-          after="the third power had been seen, and its cause by a first look at some of these sizes",
-          statement="the error in 1/rows^3 is of the pressure of images, which goes on hydrostatically where "
-                    "the plate also has eta d2v/dy2: the coefficient of 1/rows^3 in K with that slope over "
-                    "the one without, Ra 5000"),
     Claim(id="rr98-eq51-rb-heat-10000", source="RR98 Eqs 36, 51", value=error("fixed-lattice-printed-heat"),
           printed=LIMIT, at_most=0.003, because=GOAL,
           statement="the work of forces along edges heats as the equations say: |K/K_grid - 1| at Ra "
