@@ -59,7 +59,7 @@ def looked(claim: Claim) -> Claim:
     known = particles(1e4).items()
     asked = any(known <= one.where.items() and one.table != "snapshots"       # which has the first seed alone
                 for one in getattr(claim.value, "asks", ()))
-    return replace(claim, after=MORE_SEEDS) if asked else claim
+    return replace(claim, after=claim.after or MORE_SEEDS) if asked else claim
 
 
 THEMES = (arithmetic, grid, energies, fields, freezing, points)
