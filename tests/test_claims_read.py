@@ -55,6 +55,27 @@ def test_seeds_in_different_flows_decide_nothing():
         assert "1 of 3 seeds of printed" in judged(name, tables)["reason"], name
 
 
+def test_variants_are_compared_seed_by_seed():
+    """Starts that all have in common are no difference."""
+    points = {name: {**particles(1e4, variant=name), "ke": K, "ke_err": 1e-4}
+              for name in ("printed", "arithmetic-mean")}
+    runs = [{**point, "seed": seed,
+             "ke_field": K*(1 + 0.1*seed)*(1 if name == "printed" else 1.004 + 1e-5*seed)}
+            for name, point in points.items() for seed in (1, 2, 3)]
+    tables = Tables({**means(*points.values()), "kinetic_energy": pd.DataFrame(runs)})
+    compared = judged("khp95-mean-geometric", tables)
+    assert compared["measured"] == pytest.approx(0.00402, abs=1e-5) and compared["err"] < 1e-4
+
+
+def test_readings_of_images_widen_what_the_print_leaves_open():
+    """As far as they have been run."""
+    printed, odd = ({**particles(5e3, variant=name), "ke": ke, "ke_err": 1e-6}
+                    for name, ke in (("printed", 0.0031), ("walls-odd", 0.0029)))
+    for rows, err, verdict in (([printed], 1e-6, "fails"), ([printed, odd], 2e-4, "undecidable")):
+        row = judged("khp95-spam-ke-5000-particles", means(GRID, *rows))
+        assert row["err"] == pytest.approx(err, rel=0.01) and row["verdict"] == verdict
+
+
 def test_fluctuations_are_those_of_the_start_that_flows():
     """The same noise, 1e-4, over 0.2 of K at Ra 2500 and over 0.8 of it at Ra 10 000."""
     points = [{**particles(2500), "ke": 1e-4*K}, {**particles(1e4), "ke": 0.8*K},

@@ -7,13 +7,15 @@ import pytest
 from scenes import rows_of
 
 from continuum.fluid import IdealGas, VanDerWaals, pressure
+from continuum.gas.fields import NodeFields, Values, nodes
 from particles.limits import lattice_sums
 from particles.threads import Threads
 from particles.weights import Lucy, Monaghan, WendlandC2
 from studies.build.spam import at_rest, fluid
-from studies.lattices.claims import NO_PRESSURE, SPINODAL
+from studies.kit.table import Tables
+from studies.lattices.claims import CLAIMS, NO_PRESSURE, SPINODAL
 from studies.lattices.crystals import LATTICES, Crystal, LatticeGrowth, Speed, sums
-from studies.lattices.frozen_flow import criteria, neighbours
+from studies.lattices.frozen_flow import SCENE, criteria, fastest, neighbours
 
 HEXAGONAL, SQUARE = LATTICES["hexagonal"], LATTICES["square"]
 WEIGHTS = (Lucy, Monaghan, WendlandC2)
@@ -83,6 +85,26 @@ def test_criteria_are_the_printed_inequalities():
     printed = criteria(Lucy, 0.002)
     assert printed["barrier"]*2*5/(9*np.pi) == pytest.approx(2*0.002, rel=1e-12)
     assert printed["melting"]*2*0.010452 == pytest.approx(2*0.002, rel=1e-3)
+
+
+def test_fastest_point_of_waves_has_four_times_the_mean():
+    x, y = np.meshgrid(*nodes(SCENE, 16))
+    still, vx = np.zeros_like(x), np.sin(2*np.pi*x/SCENE.width)*np.sin(np.pi*(y/SCENE.L + 0.5))
+    at = Values(vx, still, still, still + 1, still + 1)
+    assert fastest(NodeFields(SCENE, x[0], y[:, 0], at, still)) == pytest.approx(4, rel=2e-3)
+
+
+def test_freezing_without_a_step_and_with_the_fastest_point():
+    """2 + 3 step^(1/2) of the rule's pressure; the fastest point has 2 <v^2>."""
+    ratio = {step: 2 + 3*step**0.5 for step in (1.0, 1/4, 1/16)}
+    limits = pd.DataFrame([{"weight": "Lucy", "seed": seed, "step": step, "measured": value, "melting": 1.0,
+                            "measured_err": 0.01} for step, value in ratio.items() for seed in (1, 2)])
+    flow = pd.DataFrame({"ra": 3000.0, "rows": [16, 24, 32], "fastest": 2 + 1/np.array([16, 24, 32])**2})
+    tables = Tables({"freezing_limits": limits, "freezing_flow": flow})
+    asked = {claim.id: claim.value for claim in CLAIMS if "freezing-" in claim.id}
+    value, err = asked["khp95-hard-freezing-melting-limit"](tables)
+    assert value == pytest.approx(2, rel=1e-6) and err == pytest.approx(0.75, rel=0.01)
+    assert asked["khp95-hard-freezing-fastest-limit"](tables).value == pytest.approx(1, rel=1e-4)
 
 
 # --- sound ------------------------------------------------------------------------------------------

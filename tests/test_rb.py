@@ -13,7 +13,7 @@ from studies.build.fixed import SCHEMES, layer
 from studies.build.measure import rolls
 from studies.kit.sweep import RESULTS, NoSuchCase, load
 from studies.rb import tables
-from studies.rb.derive import extrapolated
+from studies.rb.derive import ENERGIES, extrapolated, step_change, step_changes
 from studies.rb.runs.points import DihRun, MovingRun
 from studies.rb.runs.spam import SpamRun
 
@@ -99,6 +99,16 @@ def test_the_interval_of_scattered_sets_holds_their_limit(sizes, third):
     value, err = np.transpose(found)
     assert np.mean(abs(value - 4) < err) > 0.90
     assert np.median(err) < 4*np.std(value)
+
+
+@pytest.mark.parametrize(("ra", "change"), [(1e4, 0.1), (3e3, 0.5), (5e3, 0.5)])
+def test_the_error_of_the_step_is_that_of_the_same_ra(ra, change):
+    """Where half of it was run there; else that of another."""
+    known = {**RUN, "method": "spam", "resolution": 16}
+    runs = [{**known, **dict.fromkeys(ENERGIES, K), "ra": where, "variant": name}
+            for where, half in ((1e4, 1.1), (3e3, 1.5))
+            for name, K in (("printed", 1.0), ("printed-half-step", half))]
+    assert step_change(step_changes(pd.DataFrame(runs)), {**known, "ra": ra})["ke"] == pytest.approx(change)
 
 
 def one(tmp_path, scheme="fixed-lattice", rows=8, ra=1e4, **more):

@@ -235,8 +235,15 @@ def noises() -> Iterator[str]:
 def breaks() -> Iterator[str]:
     yield f"freezes at P = {frozen('Lucy')} (Lucy) and {frozen('Monaghan')} (Monaghan)"
     rule = "khp95-hard-freezing-melting"
-    yield f"With a quarter of the time step it is {of(rule + '-short')} times the rule"
-    yield f"extrapolated to no step {of(rule + '-limit')} times"
+    yield f"with a quarter of the step it is {of(rule + '-short')} times the rule"
+    yield f"with a sixteenth {of(rule + '-shortest')} times"
+    yield f"Extrapolated to no step it is {of(rule + '-limit')} times"
+    fastest, apart = "khp95-hard-freezing-fastest", "khp95-hard-freezing-lindemann"
+    yield f"it is {of(fastest + '-lucy')} times the rule"
+    yield f"with a sixteenth of the step {of(fastest + '-shortest')} times"
+    yield f"neighbours fluctuate by {percent(apart)} %"
+    yield f"With a sixteenth they fluctuate by {percent(apart + '-shortest')} %"
+    yield f"in the flow beside it by {percent('khp95-hard-freezing-molten-shortest')} %"
     yield f"moving points within {percent('own-sod-moving-grid')} %"
     yield f"grows at {ripples()} of the impulsive rate"
 
@@ -274,6 +281,7 @@ def front() -> Iterator[str]:
 def counts() -> Iterator[str]:
     after = (CLAIMS["fixed"] == "after").sum()
     yield f"Of {len(CLAIMS)} claims {after} were fixed after a look"
+    yield f"K of the field is {percent('own-window')} % higher from 60 on"
 
 
 TEXTS = {"README.md": (front,), "results/README.md": (counts,),

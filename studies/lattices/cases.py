@@ -9,7 +9,7 @@ from studies.build.spam import VARIANTS, Variant
 from studies.kit.case import Case
 from studies.kit.table import Table
 from studies.lattices.crystals import LATTICES, Crystal, LatticeGrowth, Onset, Speed
-from studies.lattices.frozen_flow import Freezing
+from studies.lattices.frozen_flow import Fastest, Freezing
 from studies.lattices.loss import TABLES as LOSS
 from studies.lattices.loss import Thickened
 from studies.lattices.stirred import PLATES, SHEARED, Stirred
@@ -86,7 +86,9 @@ def freezing() -> Iterator[Case]:
     """The gas of Fig. 4 with both weights; with shorter steps, too."""
     for weight, seed in product((Lucy, Monaghan), SEEDS):
         yield Freezing(weight=weight, seed=seed)
-    yield Freezing(weight=Lucy, step=0.25)
+    for step, seed in product((1/4, 1/16), SEEDS):
+        yield Freezing(weight=Lucy, step=step, seed=seed)
+    yield Fastest()
 
 
 def speeds() -> Iterator[Case]:
@@ -160,6 +162,9 @@ FREEZING_LIMITS = Table.of("freezing_limits", "weight seed step", "measured meas
                            means=USUAL | {"measured": ("P at which K of the mean flow falls below a tenth",
                                                        "epsilon/a^2")},
                            about="The pressure at which that gas freezes.")
+FREEZING_FLOW = Table.of("freezing_flow", "ra rows", "fastest",
+                         means={"fastest": ("largest v^2 over 2 K", "")},
+                         about="How uneven the grid's flow of that gas is.")
 SPEEDS = Table.of("sound_speeds", "lattice weight", "speed", about="The longest waves along x on a lattice.",
                   means={"speed": ("speed of sound over the fluid's", "")})
 RUN = "variant h corrected rows seed"
@@ -188,4 +193,4 @@ DECAYS = Table.of(
            "predicted": ("the sum of the three beside it", ""), "symbol": ("as in driven", ""),
            "deviator": ("stress of the pressure sum over that of friction, mean over time", ""),
            "kinetic": ("the same of the noise", "")})
-TABLES = (GROWTH, ONSETS, FREEZING, FREEZING_LIMITS, SPEEDS, DRIVEN, DECAYS, *LOSS)
+TABLES = (GROWTH, ONSETS, FREEZING, FREEZING_LIMITS, FREEZING_FLOW, SPEEDS, DRIVEN, DECAYS, *LOSS)

@@ -1,11 +1,12 @@
 """What KHP95 say of smooth particles as lattices, and what keeps them from convergence."""
+from collections.abc import Iterator
 from itertools import product
-from math import hypot
 from typing import Any
 
 import numpy as np
 
-from studies.kit.ask import Value, farthest, largest, of, one, over_seeds, power, rows
+from studies.kit import fits
+from studies.kit.ask import Value, curve, farthest, largest, of, one, over_seeds, power, rows
 from studies.kit.claim import Claim
 from studies.kit.stats import CannotTell, Measured
 from studies.kit.stats import over_seeds as mean_of
@@ -13,6 +14,8 @@ from studies.kit.table import Tables
 
 #: the layer of Fig. 4 that most is asked of
 GAS: dict[str, Any] = {"weight": "Lucy", "step": 1.0}
+#: over that of other studies
+STEPS = 1.0, 1/4, 1/16
 #: relative difference of what was measured from what lattice sums say
 DIFFERENCE = "abs(measured/predicted - 1)"
 #: T of a van der Waals fluid at which P = 0, and at which (dP/drho)_T = 0    [KHP95, Eq. 2]
@@ -33,26 +36,35 @@ def frozen_at(criterion: str, **where) -> Value:
 
 @of
 def frozen_without_step(tables: Tables) -> Measured:
-    """measured/melting in freezing_limits, Lucy, on the line through steps 1 and 1/4, at 0
+    """measured/melting in freezing_limits, Lucy, by Richardson from steps 1, 1/4, 1/16
 
-    Nothing says that these steps are small enough for a line, so what is extrapolated is the error, too.
+    The order is the one seen, below 1, so what is extrapolated is the error, too.
     """
-    whole, quarter = (frozen_at("melting", weight="Lucy", step=step)(tables) for step in (1.0, 0.25))
-    value = quarter.value - (whole.value - quarter.value)/3
-    return Measured(value, hypot(4/3*quarter.err, whole.err/3, quarter.value - value))
+    ratios = [frozen_at("melting", weight="Lucy", step=step)(tables) for step in STEPS]
+    limit = fits.grid_limit([1/step for step in STEPS], [ratio.value for ratio in ratios])
+    return limit + Measured(0.0, 2*max(ratio.err for ratio in ratios[1:]))
 
 
-def next_to_limit(side: str) -> Value:
+@curve
+def limit_of_rows(x: np.ndarray, y: np.ndarray, err: np.ndarray) -> Measured:
+    """By Richardson."""
+    return fits.grid_limit(x, y)
+
+
+def next_to_limit(side: str, step: float = 1.0) -> Value:
     """Fluctuation of neighbours' distances at the pressure nearest to the limit on one side of it."""
+    gas = GAS | {"step": step}
+
     def value(tables: Tables) -> Measured:
-        limits = rows(tables, "freezing_limits", **GAS)[["seed", "measured"]]
-        runs = rows(tables, "freezing", **GAS).dropna().merge(limits, on="seed").query(f"P {side} measured")
+        limits = rows(tables, "freezing_limits", **gas)[["seed", "measured"]]
+        runs = rows(tables, "freezing", **gas).dropna().merge(limits, on="seed").query(f"P {side} measured")
         if runs["seed"].nunique() < len(limits):
             raise CannotTell(f"a search has no run with P {side} its limit")
         distance = (runs["P"]/runs["measured"]).map(np.log).abs()
         nearest = distance.groupby(runs["seed"]).idxmin()
         return mean_of(runs.loc[nearest, "lindemann"])
-    value.__doc__ = f"mean over seeds of lindemann in freezing at P {side} the limit, next to it"
+    value.__doc__ = (f"mean over seeds of lindemann in freezing at P {side} the limit, next to it" +
+                     f", step {step:g}"*(step < 1))
     return of(value)
 
 
@@ -85,6 +97,23 @@ LATTICES = (
           because="beyond 1 it is the particles that clump, not the fluid"),
 )
 
+def fluctuations(name: str, step: float) -> Iterator[Claim]:
+    """Of neighbours' distances, below and above the pressure at which the flow freezes."""
+    source, printed = "KHP95 Sec. IV", "of the order of 10%"
+    after = "a quarter of the step had been seen to still the frozen state"*(step < 1)
+    end = "next to the limit, Lucy, ideal gas, Ra 3000" + f", step times {step:g}"*(step < 1)
+    yield Claim(id=f"khp95-hard-freezing-lindemann{name}", source=source, printed=printed, at_least=0.05,
+                at_most=0.2, value=next_to_limit(">", step), because='"of the order of": a factor of two',
+                after=after, statement="melting occurs when neighbours' distances fluctuate by about 10 %: "
+                f"fluctuation in the frozen run {end}")
+    yield Claim(id=f"khp95-hard-freezing-molten{name}", source=source, printed=printed, at_least=0.1,
+                value=next_to_limit("<=", step), because="the printed number", after=after,
+                statement="where particles flow neighbours' distances fluctuate by more than 10 %: "
+                          f"fluctuation in the flowing run {end}")
+
+
+#: the largest v^2 of the grid's flow over the mean one
+FASTEST = limit_of_rows("freezing_flow", "fastest", "rows")
 RULE = "a criterion from a rule of thumb is good to a factor of two at best"
 MELTING, BARRIER = "mv^2 > 2Pn^-2[w(0.9)-w(1)]", "mv^2 > 2Pn^-2 w(0)"
 FREEZING = (
@@ -95,26 +124,28 @@ FREEZING = (
                       "512 particles, ideal gas, Ra 3000, v^2 of the grid")
       for weight, (name, printed, words) in product(("Lucy", "Monaghan"), (
           ("melting", MELTING, "Lindemann-like criterion"), ("barrier", BARRIER, "largest potential")))),
-    Claim(id="khp95-hard-freezing-melting-short",
-          source="KHP95 Sec. IV, Fig. 4", printed=MELTING, at_least=0.5, at_most=2,
-          value=frozen_at("melting", weight="Lucy", step=0.25), because=RULE,
-          statement="with a quarter of the step convection freezes at the pressure of the Lindemann-like "
-                    "criterion: measured over printed, Lucy, ideal gas, Ra 3000, v^2 of the grid"),
+    *(Claim(id=f"khp95-hard-freezing-melting-{name}",
+            source="KHP95 Sec. IV, Fig. 4", printed=MELTING, at_least=0.5, at_most=2, because=RULE,
+            value=frozen_at("melting", weight="Lucy", step=step), after=after,
+            statement=f"with {words} of the step convection freezes at the pressure of the Lindemann-like "
+                      "criterion: measured over printed, Lucy, ideal gas, Ra 3000, v^2 of the grid")
+      for name, step, words, after in (
+          ("short", 1/4, "a quarter", ""), ("shortest", 1/16, "a sixteenth", "it fell with the step"))),
     Claim(id="khp95-hard-freezing-melting-limit", source="KHP95 Sec. IV, Fig. 4", printed=MELTING,
           at_least=0.5, at_most=2, value=frozen_without_step, because=RULE,
-          after="steps of 1 and 1/4 had been seen to differ",
+          after="steps of 1, 1/4 and 1/16 had been seen to differ",
           statement="with a step that vanishes convection freezes at the pressure of the Lindemann-like "
                     "criterion: measured over printed, Lucy, ideal gas, Ra 3000, v^2 of the grid"),
-    Claim(id="khp95-hard-freezing-lindemann",
-          source="KHP95 Sec. IV", printed="of the order of 10%", at_least=0.05,
-          at_most=0.2, value=next_to_limit(">"), because='"of the order of": a factor of two',
-          statement="melting occurs when neighbours' distances fluctuate by about 10 %: fluctuation in the "
-                    "frozen run next to the limit, Lucy, ideal gas, Ra 3000"),
-    Claim(id="khp95-hard-freezing-molten",
-          source="KHP95 Sec. IV", printed="of the order of 10%", at_least=0.1,
-          value=next_to_limit("<="), because="the printed number",
-          statement="where particles flow neighbours' distances fluctuate by more than 10 %: fluctuation in "
-                    "the flowing run next to the limit, Lucy, ideal gas, Ra 3000"),
+    *(Claim(id=f"khp95-hard-freezing-fastest-{name}", source="KHP95 Sec. IV, Fig. 4", printed=MELTING,
+            at_least=0.5, at_most=2, value=ratio/FASTEST, because=RULE,
+            after='the ratio with <v^2> had been seen, which is v^2 of the "typical" particle of the text',
+            statement=f"convection freezes at the pressure of the Lindemann-like criterion with v^2 of the "
+                      f"fastest point: measured over printed, Lucy, ideal gas, Ra 3000, {words}")
+      for name, words, ratio in (
+          ("lucy", "steps of the other studies", frozen_at("melting", weight="Lucy", step=1.0)),
+          ("shortest", "a sixteenth of the step", frozen_at("melting", weight="Lucy", step=1/16)),
+          ("limit", "a step that vanishes", frozen_without_step))),
+    *(claim for name, step in (("", 1.0), ("-shortest", STEPS[-1])) for claim in fluctuations(name, step)),
 )
 
 SOUND = (

@@ -12,13 +12,14 @@ from typing import Any
 import numpy as np
 from scipy.spatial import cKDTree
 
+from continuum.gas.fields import NodeFields, interpolate
 from continuum.gas.solve import steady_on
 from continuum.scene import RayleighBenard
 from particles.observe import Grid, Smoothed
 from particles.run import Divergence, Plan, Run, run
 from particles.smooth.spam import Spam
 from particles.weights import value_and_slope
-from studies.build.measure import Smoothing, flowing, smoothed_energy
+from studies.build.measure import FINE, Smoothing, flowing, smoothed_energy
 from studies.build.spam import OF_LIMIT, Variant
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import with_errors
@@ -105,6 +106,25 @@ class Freezing(Case):
         means = Smoothed(*done.means["grid"])
         flow = flowing({"rho": means.rho, "vx": means.vx, "vy": means.vy}, periodic=True)
         return {**key, "lindemann": fluctuation, **with_errors(flow=flow/K)}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Fastest(Case):
+    """How much faster than the mean is the fastest point of the grid's flow?"""
+    cost = 20.0
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        return Outcome({"freezing_flow": [
+            {"ra": SCENE.ra, "rows": solution.rows, "fastest": fastest(solution.fields)}
+            for solution in steady_on(SCENE, (*GRIDS, 32))]})
+
+
+def fastest(fields: NodeFields) -> float:
+    """The largest v^2 over 2 K."""
+    x, y = (np.linspace(line[0], line[-1], FINE, endpoint=False) for line in (fields.x, fields.y))
+    at = interpolate(fields, *np.meshgrid(x, y))
+    square = at.vx**2 + at.vy**2
+    return float(square.max()*at.rho.sum()/(at.rho*square).sum())
 
 
 def places(method: Spam, done: Run, dt: float) -> np.ndarray:

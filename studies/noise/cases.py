@@ -27,7 +27,7 @@ from studies.noise.sampling import Nonlinear
 
 KINDS = ("lattice", "jittered-0.1", "jittered-0.3", "random")
 DT = (0.01, 0.02, 0.05, 0.1, 0.2, 0.4, 0.8)
-BELOW = (0.9, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005)
+BELOW = (0.9, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 0.002, 0.001, 0.0005)
 PRINTED = ((42, "eta"), (42, "zeta"), (23, "zeta"), (43, "kappa"), (25, "kappa"))
 FORMULAS = {
     "partner of Eq. 42": partners.other_partner, "step of Eq. 42": partners.half_step,

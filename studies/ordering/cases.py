@@ -17,7 +17,8 @@ H = (1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 6.0)
 #: on a lattice, where each has a factor of its own: between these, to have a range every half spacing
 BETWEEN = (3.5, 4.5, 5.0, 5.5)
 SEEDS = (1, 2, 3)
-MORE = tuple(range(4, 10))      # of gradients with the widest weight, which three seeds left undecided
+#: of gradients with wide weights, range -> seeds besides, where three left it undecided
+MORE = {5.0: range(4, 21), 6.0: range(4, 10)}
 RANGES = H[:-1]     # of the flows
 IRREGULAR = ("jittered-0.3", "random", "relaxed")
 #: irregular points with triangles that end on rows of points on the plates
@@ -37,8 +38,8 @@ def cases(size: str) -> list[Case]:
     if size == "quick":
         waves = {"lattice": (16, 32), "jittered-0.3": (16, 32)}
         return [*surface(waves), *forms((1.2, 3.0), ("jittered-0.3",)), *quick_flows()]
-    wide = (runs.GradientForms(disorder=DISORDERS["jittered-0.3"], h=6.0, wavelength=WAVE, seed=seed)
-            for seed in MORE)
+    wide = (runs.GradientForms(disorder=DISORDERS["jittered-0.3"], h=h, wavelength=WAVE, seed=seed)
+            for h, seeds in MORE.items() for seed in seeds)
     return [*surface(WAVES), *forms(H, ("lattice", *IRREGULAR)), *forms((5.0,), IRREGULAR[:1]), *wide,
             *vortices(), *layers()]
 

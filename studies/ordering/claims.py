@@ -65,6 +65,7 @@ REACHES = (     # name, range over the spacing, reason of the limit
     ("enough", 3.0, "a tenth is not asking for much: lambda = 25 rms widths of 1.27 a; the r0 of Eq. 30, "
                     "whose rms width is sqrt 2 r0, is then 0.90 a, below the spacing"),
     ("4", 4.0, f"{WIDER} 1.20 a"), ("5", 5.0, f"{WIDER} 1.50 a"), ("wide", 6.0, f"{WIDER} 1.80 a"))
+OPEN = "three seeds had left it open, and more were run"
 SPACING = "the spacing must be smaller than r0: error of"
 WAVES = (
     Claim(id="rr98-eq6-order", source="RR98 Eq. 6", printed="r0^2", expect=2, within=0.05, headline=True,
@@ -103,7 +104,7 @@ BRACKETS = (
       for form, words in FORMS.items()),
     *(Claim(id=f"rr98-eq45-jittered-{form}-{name}", source="RR98 Eq. 45",
             printed="a good representation of the gradients", at_most=0.1, value=form_error(form, h),
-            because=because, after="three seeds had left it open, and six more were run"*(h == 6),
+            because=because, after=OPEN*(h > 4),
             statement=f"a < r0 < lambda gives a good gradient: its error ({FORMS[form]}) with h = {h:g} a, "
                       f"{JITTERED}, wavelength 32 a")
       for form, (name, h, because) in product(FORMS, REACHES)),

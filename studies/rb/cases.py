@@ -157,6 +157,17 @@ def others() -> Iterator[Case]:
         yield from spam(3000.0, 16, variant=VARIANTS[name], keep="all", **DENSE)
 
 
+def more() -> Iterator[Case]:
+    """Seeds, steps and readings of the images where three seeds, or one reading, left a statement open."""
+    rest = MANY[len(SEEDS):]
+    yield from spam(1e4, 50, rest, keep="history")
+    for ra in (1e4, 3e3):
+        yield from spam(ra, 16, rest, keep="history")
+    yield from spam(1e4, 16, variant=VARIANTS["printed-half-step"], **VDW)
+    for name in ("walls-own-pressure", "walls-odd"):
+        yield from spam(5e3, 50, variant=VARIANTS[name])
+
+
 def fine() -> Iterator[Case]:
     """Every variant at two sizes (of pressure at two Ra), finer particles, higher Ra, long grids."""
     for name in sorted(set(VARIANTS) - {"printed", "printed-half-step", "printed-from-flow"}):
@@ -168,7 +179,7 @@ def fine() -> Iterator[Case]:
             yield from spam(5e3, 50, variant=variant)
     yield from checks()
     yield from changed(5e3)
-    yield from spam(1e4, 50, MANY[len(SEEDS):], keep="history")
+    yield from more()
     for ra, rows in product((1500.0, 2500.0, 20000.0), (25, 35)):
         yield from spam(ra, rows)
     for ra in (2500.0, 10000.0):

@@ -124,10 +124,14 @@ def step_changes(runs: pd.DataFrame) -> pd.DataFrame:
 
 
 def step_change(changes: pd.DataFrame, row: Row) -> pd.Series:
-    """That of the next coarser resolution of the same fluid and box, or else of any; of particles alone."""
+    """That of the next coarser resolution of the same fluid and box, or else of any; of particles alone.
+
+    Of several Ra of this fluid that of the same one, if it is there.
+    """
     coarser = changes[changes.resolution <= row["resolution"]]
     alike = coarser[(coarser.eos == row["eos"]) & (coarser.sides == row["sides"])]
-    chosen = coarser if alike.empty else alike
+    own = alike[(alike.resolution == alike.resolution.max()) & (alike.ra == row["ra"])]
+    chosen = next((some for some in (own, alike) if not some.empty), coarser)
     if row["method"] != "spam" or chosen.empty:
         return pd.Series(0.0, ENERGIES)
     return chosen[ENERGIES].iloc[0]

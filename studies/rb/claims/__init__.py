@@ -51,15 +51,19 @@ OPEN = (
               "from 10 000 to a million particles ln N adds 0.09 to the exponent of N, less than caches do; "
               "linked cells take N for a given density", "N ln N"),
 )
-MORE_SEEDS = "three seeds of 5000 particles at Ra 10 000 had left K open, and five more were run"
+MORE_SEEDS = "three seeds of {} had left K open, and five more were run"
+#: what has more seeds
+POINTS = {"5000 particles at Ra 10 000": particles(1e4), "512 particles at Ra 10 000": particles(1e4, 16),
+          "512 particles at Ra 3000": particles(3e3, 16)}
 
 
 def looked(claim: Claim) -> Claim:
     """The same, fixed after a look if it asks for the particles of which there are more seeds."""
-    known = particles(1e4).items()
-    asked = any(known <= one.where.items() and one.table != "snapshots"       # which has the first seed alone
-                for one in getattr(claim.value, "asks", ()))
-    return replace(claim, after=MORE_SEEDS) if asked else claim
+    asked = [one.where.items() for one in getattr(claim.value, "asks", ())
+             if one.table != "snapshots"]       # which has the first seed alone
+    seen = (MORE_SEEDS.format(words) for words, point in POINTS.items()
+            if any(point.items() <= where for where in asked))
+    return replace(claim, after=claim.after or "; ".join(seen))
 
 
 THEMES = (arithmetic, grid, energies, fields, freezing, points)

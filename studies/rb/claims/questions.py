@@ -144,6 +144,12 @@ def late(t: np.ndarray, ke: np.ndarray) -> np.ndarray:
 
 
 @curve
+def average(t: np.ndarray, ke: np.ndarray, err: np.ndarray) -> Measured:
+    """Of all samples."""
+    return Measured(float(ke.mean()))
+
+
+@curve
 def scatter(t: np.ndarray, ke: np.ndarray, err: np.ndarray) -> Measured:
     """Standard deviation over mean of the second half of a run."""
     half = late(t, ke)

@@ -195,7 +195,7 @@ def few_particles() -> Numbers:
         "sum of forces over moduli": momentum,
         "sum of energy rates over moduli": energy_left,
         "error of RK4 over midpoint": few.against_midpoint(),
-        "order of RK4, dt 0.6 to 0.15": few.order(few.step_errors, few.GAS, few.STEPS),
+        "order of RK4, dt 0.6 to 0.15": few.order(few.step_errors, few.GAS, few.STEPS, few.MORE),
         "order of RK4, dt 0.075 to 0.019": few.order(few.step_errors, few.GAS, few.SMALL),
     }
 
