@@ -17,6 +17,7 @@ from particles.integral.rr98_moving_plain import MOTIONS
 from particles.integrators import TwoStep
 from particles.weights import WEIGHTS, WendlandC2
 from studies.build.setting import DISORDERS
+from studies.conservation.angular import EdgeTorque, MotionTorque
 from studies.conservation.drift import (
     MODES,
     OPEN,
@@ -141,12 +142,23 @@ def sliding(waves: tuple[int, ...]) -> Iterator[Case]:
     yield from (SlidingShear(rows=rows) for rows in waves[:3])
 
 
+def torques(seeds: int) -> Iterator[Case]:
+    """Of exchanges over edges, of motions, of smooth particles."""
+    for (maker, points), seed in product(pairs(("lattice", "jittered-0.3")), range(1, seeds + 1)):
+        if seed == 1 or points != "lattice":
+            yield EdgeTorque(make=MAKERS[maker], points=points, seed=seed)
+    for (name, kind), friction in product(MOTIONS.items(), ("none", "Eq. 37", "Eq. 51")):
+        yield MotionTorque(motion=name, kind=kind, friction=friction)
+    for friction in ("none", "as printed"):
+        yield MotionTorque(motion="spam", kind=None, friction=friction)
+
+
 def quick() -> Iterator[Case]:
     """Short runs with one weight, no relaxed points and none that move over closed faces; small bodies."""
     some = KINDS[:2], WEIGHT_KINDS[:1]
     yield from (*layers(*some, steps=300), *plates(*some, steps=300))
     yield from (*dimensions(300, seeds=2), *motions(40, WEIGHT_KINDS[:1]), *once(), *speeds((8,)))
-    yield from sliding((12, 16, 24))
+    yield from (*sliding((12, 16, 24)), *torques(1))
     yield from drags(0.1, {"surface": (12, 16), "frozen": (12, 16)})
 
 
@@ -155,7 +167,7 @@ def paper() -> Iterator[Case]:
     yield from (*layers(KINDS, WEIGHT_KINDS, 10_000), *plates(KINDS, WEIGHT_KINDS, 10_000))
     yield from (*dimensions(10_000, seeds=24), *motions(10_000, WEIGHT_KINDS), *once(), *moving())
     yield from speeds((8, 16, 24, 32))
-    yield from sliding((16, 24, 32, 48, 64))
+    yield from (*sliding((16, 24, 32, 48, 64)), *torques(3))
     for fraction, every in ((0.1, 1), (0.3, 4)):
         yield from drags(fraction, {"surface": SMOOTH, "frozen": SCATTERED[::every],
                                     "frozen-grown": SCATTERED[::every]})

@@ -178,4 +178,28 @@ BODIES = (
             statement="points on the surface: drag extrapolated to infinitely fine points against print, "
                       f"relative, solid fraction {c:g}") for c, printed in ((0.1, "24.83"), (0.3, "102.90"))),
 )
-CLAIMS = (*FIXED, *MOVING, *BODIES)
+WEIGHTED, LINEAR = ("plain", "renormalised", "printed"), ("delaunay", "exact")
+PRESSURES = ("pressure, P_i + P_j", "pressure, Eq. 13")
+HALVED = (PRESSURES[0], "convection, half of each end", "friction, Eq. 37")
+SUMMED: dict[str, Any] = {"at_most": 1e-14, "because": "round-off of some thousand terms, summed once",
+                          "after": "torques of one seed had been seen"}
+TORQUES = (
+    Claim(id="own-angular-central", source="RR98 Eqs 35, 49, 51", **SUMMED,
+          value=largest_of(largest("torques", "torque", exchange=PRESSURES, maker=WEIGHTED),
+                           largest("torques", "torque", exchange="friction, Eq. 51, B = 0"),
+                           largest("motion_torques", "torque", friction="none",
+                                   motion=("carried", "constant-mass", "spam"))),
+          statement="forces along edges keep angular momentum on any points: largest torque over its size of "
+                    "pressures along edges of a weight, of friction with B = 0, and of all forces without "
+                    "friction on moving points where masses stay"),
+    Claim(id="own-angular-linear", source="RR98 Eqs 35, 37", **SUMMED,
+          value=largest("torques", "torque", exchange=HALVED, maker=LINEAR),
+          statement="edges that are exact on linear fields keep angular momentum though areas are not along "
+                    "edges, if each end gives half of a symmetric stress: largest torque over its size of "
+                    "P_i + P_j, of rho v v halved, of Eq. 37 with constant eta, Delaunay and exact edges"),
+    Claim(id="own-angular-convection", source="RR98 Eq. 35", **SUMMED,
+          value=largest("torques", "torque", exchange="convection, Eq. 35"),
+          statement="convection as printed, p_i v_j + p_j v_i, keeps angular momentum: largest torque over "
+                    "its size, all makers of edges, lattice and jittered points"),
+)
+CLAIMS = (*FIXED, *MOVING, *BODIES, *TORQUES)

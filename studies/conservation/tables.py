@@ -15,6 +15,7 @@ from studies.kit.table import Rows, Table, Tables
 SOUND = {"speed": ("speed of sound over c", "")}
 SIZE = {"rows": ("points along the side of the cell", ""), "variant": ("how the body is made", ""),
         "error": ("drag/published - 1", "")}
+TORQUE = {"torque": ("|sum x cross f| over sum |x| |f|, x the edge or the place of the point", "")}
 RINGS = {"rows": ("points along the side of the box", "")}
 
 ALL = (
@@ -41,6 +42,10 @@ ALL = (
              about="What an equation adds to a rate of change, by sums over a lattice."),
     Table.of("brackets", "a b", "force", about="The bracket of Eq. 50 in a wave without entropy.",
              means={"force": ("force over -grad P", "")}),
+    Table.of("torques", "exchange maker points seed", "torque", means=TORQUE,
+             about="What an exchange over edges does to angular momentum, random fields, points that stay."),
+    Table.of("motion_torques", "motion friction seed", "torque", means=TORQUE,
+             about="The same of all forces on a disc of moving points with a free rim."),
     Table("drag", key=["variant", "fraction", "rows", "reynolds"], columns=[
         "variant", "fraction", "rows", "radius", "drag", "drag_err", "published", "published_err", "error",
         "error_err", "reynolds", "mach", "dt", "steps"], means=SIZE,
