@@ -15,7 +15,9 @@ from studies.kit.table import Rows, Table, Tables
 SOUND = {"speed": ("speed of sound over c", "")}
 SIZE = {"rows": ("points along the side of the cell", ""), "variant": ("how the body is made", ""),
         "error": ("drag/published - 1", "")}
-TORQUE = {"torque": ("|sum x cross f| over sum |x| |f|, x the edge or the place of the point", "")}
+TORQUE = {"exchange": ("of momentum: an equation, or halves of the ends' own", ""),
+          "friction": ("the equation of the friction", ""),
+          "torque": ("|sum x cross f| over sum |x| |f|, x the edge or the place of the point", "")}
 RINGS = {"rows": ("points along the side of the box", "")}
 
 ALL = (
