@@ -168,6 +168,8 @@ def edges() -> Iterator[str]:
     yield ", ".join(of(f"own-vortex-triangles-{kind}") for kind in kinds) + " in the vortex"
     yield "1 % of K takes " + ", ".join(of(f"own-convection-triangles-cost-{kind}") for kind in kinds)
     yield f"sound grows by {of('own-eq34-35-sound', form='.2f')} c/a"
+    total = read(RESULTS/"operators/entropy.csv").query("transport == 'along edges' and cells == 64")["total"]
+    yield f"its sum is {100*(total.mean() - 1):.1f} % too large in a smooth flow"
     yield (f"{percent('rr98-transport-eq51-long-h2', '.0f')} % off on a lattice at h = 2 a, "
            f"{percent('rr98-transport-eq51-long-h3', '.0f')} % at 3 a and "
            f"{percent('own-transport-eq51-delaunay')} % on Delaunay edges")
