@@ -9,6 +9,7 @@ from studies.build.spam import VARIANTS, Variant
 from studies.kit.case import Case
 from studies.kit.table import Table
 from studies.lattices.crystals import LATTICES, Crystal, LatticeGrowth, Onset, Speed
+from studies.lattices.debye import Debye, Spectrum
 from studies.lattices.frozen_flow import Freezing
 from studies.lattices.loss import TABLES as LOSS
 from studies.lattices.loss import Thickened
@@ -46,7 +47,7 @@ def quick() -> Iterator[Case]:
     """A few of each kind."""
     yield from list(growth())[::5]
     yield from list(onsets())[::9]
-    yield from speeds()
+    yield from (*speeds(), *spectra())
     for U, variant in product((0.05, 0.1, 0.2), ("printed", "less-static-50")):
         yield Stirred(variant=VARIANTS[variant], rows=25, U=U, time=3.0)
     yield Stirred(variant=VARIANTS["printed"], rows=25, time=1.0, held=False)
@@ -59,7 +60,7 @@ def paper() -> Iterator[Case]:
     yield from growth()
     yield from onsets()
     yield from freezing()
-    yield from speeds()
+    yield from (*speeds(), *spectra())
     yield from (*stirred(), *aligned(), *ranges(), *(Thickened(ra=ra) for ra in RAYLEIGH))
 
 
@@ -93,6 +94,13 @@ def speeds() -> Iterator[Case]:
     """Of sound."""
     for lattice, weight in product(LATTICES.values(), WEIGHTS):
         yield Speed(lattice=lattice, weight=weight)
+
+
+def spectra() -> Iterator[Case]:
+    """Of long waves for all ranges, of all waves for one that is stable."""
+    for crystal, kind, h in product((HEXAGONAL, SQUARE), WEIGHTS, (2.5, 3.0, 4.0, 5.0, 6.0)):
+        yield Debye(crystal=replace(crystal, weight=kind, h=h))
+    yield Spectrum(crystal=replace(HEXAGONAL, h=2.5, cells=(120, 70)))
 
 
 def stirred() -> Iterator[Stirred]:
@@ -162,6 +170,16 @@ FREEZING_LIMITS = Table.of("freezing_limits", "weight seed step", "measured meas
                            about="The pressure at which that gas freezes.")
 SPEEDS = Table.of("sound_speeds", "lattice weight", "speed", about="The longest waves along x on a lattice.",
                   means={"speed": ("speed of sound over the fluid's", "")})
+DEBYE = Table.of("debye", CRYSTAL, "sound shear growing",
+                 about="Long waves on a lattice: their number below a frequency over that of the fluid's.",
+                 means={"sound": ("of the faster ones", ""),
+                        "shear": ("of the slower ones, if none grows", ""),
+                        "growing": ("share of all waves that grow: lattices that melt by themselves", "")})
+SPECTRUM = Table.of("spectrum", f"{CRYSTAL} omega", "modes density fluid",
+                    about="Waves a particle on a lattice with frequencies below omega.",
+                    means={"omega": ("frequency", "1/t0"), "modes": ("all waves", ""),
+                           "density": ("each counts as it moves along k", ""),
+                           "fluid": ("Debye's, of sound alone", "")})
 RUN = "variant h corrected rows seed"
 OVER = "over that of the exact flow"
 DRIVEN = Table.of(
@@ -188,4 +206,4 @@ DECAYS = Table.of(
            "predicted": ("the sum of the three beside it", ""), "symbol": ("as in driven", ""),
            "deviator": ("stress of the pressure sum over that of friction, mean over time", ""),
            "kinetic": ("the same of the noise", "")})
-TABLES = (GROWTH, ONSETS, FREEZING, FREEZING_LIMITS, SPEEDS, DRIVEN, DECAYS, *LOSS)
+TABLES = (GROWTH, ONSETS, FREEZING, FREEZING_LIMITS, SPEEDS, DEBYE, SPECTRUM, DRIVEN, DECAYS, *LOSS)
