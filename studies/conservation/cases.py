@@ -17,7 +17,6 @@ from particles.integral.rr98_moving_plain import MOTIONS
 from particles.integrators import TwoStep
 from particles.weights import WEIGHTS, WendlandC2
 from studies.build.setting import DISORDERS
-from studies.conservation.angular import EdgeTorque, MotionTorque
 from studies.conservation.drift import (
     MODES,
     OPEN,
@@ -29,6 +28,7 @@ from studies.conservation.drift import (
     MovingDrift,
     Wall,
 )
+from studies.conservation.forces import BesideSpam, EdgeTorque, MotionTorque
 from studies.conservation.motions import ALONG, BracketForce, Identity, MovingSound, Pattern, Signs
 from studies.conservation.slow_flows import VARIANTS, CylinderDrag, SlidingShear, TurningWave
 from studies.conservation.sums import CUBE, EVERYTHING, LINE, SQUARE, DihDrift, Unsymmetric
@@ -117,6 +117,7 @@ def once() -> Iterator[Case]:
     """Equations evaluated once."""
     yield Signs()
     yield from (BracketForce(a=float(a), b=float(b)) for a, b in POWERS)
+    yield from (BesideSpam(a=float(a), b=float(b)) for a, b in ((1, -1), (0, 0), (2, 0)))
     for (name, transport), reynolds in product((("nested", NestedFluxes()), ("pairwise", ALONG)), REYNOLDS):
         yield Identity(name=name, transport=transport, reynolds=reynolds)
 

@@ -138,6 +138,10 @@ MOVING = (
           statement="a = 1, b = -1, smoothed particles with their own masses: force over -grad P, wave "
                     "without entropy of 32 a",
           because=SMOOTHED),
+    Claim(id="rr98-eq50-spam", source="RR98 Eq. 50", printed="SPH is formulated with forms such as",
+          at_most=1e-12, value=one("beside", "start", a=1, b=-1), because=f"round-off of 30 terms; {ALONE}",
+          statement="a = 1, b = -1 on volumes m/rho of the summed density are the accelerations of SPAM: rms "
+                    "difference over their rms, random fields on jittered points"),
     Claim(id="rr98-eq50-any", source="RR98 Eq. 50", printed=CONSTANTS, at_most=0.02, headline=True,
           value=largest("brackets", "abs(force - 1)", "a + b != 0"),
           statement="any constants a and b make Eq. 49 the momentum equation where volumes follow the flow: "

@@ -3,6 +3,7 @@
 Lengths in spacings; densities, temperatures and sound speeds about 1. Paper size: ten minutes of one core.
 """
 from collections.abc import Iterable, Iterator
+from functools import partial
 from itertools import product
 
 from continuum.exact.shear import couette, poiseuille
@@ -14,7 +15,7 @@ from particles.weights import WEIGHTS, Lucy, WendlandC2
 from studies.build.setting import DISORDERS
 from studies.kit.case import Case
 from studies.operators import scheme
-from studies.operators.entropy import WAYS, Random, Smooth, Sought
+from studies.operators.entropy import WAYS, Entropy
 from studies.operators.equations import Arithmetic, EquationErrors, of_dilation, of_rotation, of_volumes
 from studies.operators.transport import BETWEEN, Decay, Drive, ShearFlow, of_edges
 from studies.operators.weights import Continuum, ExponentialWave, LatticeSums, WeightSymbols, of_weights
@@ -127,7 +128,7 @@ def entropy(quick: bool) -> Iterator[Case]:
     """Smooth, random and worst states; the range of 2.5 a fits into six cells."""
     sets = ((renormalised, "lattice"), (delaunay, "jittered-0.3"), (exact, "jittered-0.3"))
     for way, (make, points) in product(WAYS, sets):
-        each = {"way": way, "make": make, "points": points}
-        yield from (Smooth(**each, cells=n) for n in ((16,) if quick else (16, 32, 64)))
-        yield Random(**each, cells=10)
-        yield from (Sought(**each, cells=6, seed=seed) for seed in SEEDS[:1 if quick else 3])
+        run = partial(Entropy, way=way, make=make, points=points)
+        yield from (run(state="smooth", cells=n) for n in ((16,) if quick else (16, 32, 64)))
+        yield from (run(state="sought", cells=6, seed=seed) for seed in SEEDS[:1 if quick else 3])
+        yield run(state="random", cells=10)

@@ -7,7 +7,7 @@ What leaves i over an edge for j, momentum f and energy e, heats i by -(e - v_i.
 Of forces F along edges that heat as they work it is F.(v_j - v_i)(1/T_i + 1/T_j)/2 + kappa k (T_j - T_i)^2
 /T_i T_j, never negative. The continuum has sigma : grad v/T + kappa (grad T)^2/T^2 in each place.
 """
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -16,7 +16,7 @@ import numpy as np
 from scipy.optimize import minimize
 
 from continuum.fluid import ConstEta, IdealGas, stress_tensor
-from particles.integral.dih import Dih, Flow, NestedFluxes, Pairwise
+from particles.integral.dih import Dih, NestedFluxes, Pairwise
 from particles.integral.edges import Edges
 from particles.integral.points import Points, lattice
 from particles.weights import WendlandC2
@@ -24,76 +24,22 @@ from studies.build.setting import DISORDERS
 from studies.kit.case import Case, Outcome, Report
 from studies.operators.equations import ALONG, ETA, KAPPA, Spectral, smooth_flow
 
+#: rho (n,), v (n, 2), T (n,)
+State = tuple[np.ndarray, np.ndarray, np.ndarray]
 #: by name: as printed, and mended
 WAYS = {"along edges": ALONG, "along edges, mended": Pairwise(), "nested": NestedFluxes()}
 HOTTER = 8.0            # than in `smooth_flow` is the wave of T: 0.2 to 1.8
-FINE = 64               # cells to the side for exact derivatives
+FINE = (64, 64)         # cells of exact derivatives
 DRAWS = 200             # random states
 SPREAD, WIDEST = 0.5, np.log(3)     # of ln T: standard deviation of random states, bound of sought ones
 FAST, STEPS = 1.0, 60   # bound of velocities of sought states, of the steps of a search
 
 
-def produced(dih: Dih, flow: Flow) -> np.ndarray:
+def produced(dih: Dih, state: State) -> np.ndarray:
     """dS/dt by each edge, (E,)."""
-    edges, (_, f, e) = dih.edges, dih.transport.fluxes(dih, flow)
-    i, j = edges.i, edges.j
-    to_i, to_j = -e + (flow.v[i]*f).sum(axis=1), e - (flow.v[j]*f).sum(axis=1)
-    return to_i/flow.T[i] + to_j/flow.T[j]
-
-
-def density(T: np.ndarray, grad_v: np.ndarray, grad_T: np.ndarray) -> np.ndarray:
-    """sigma : grad v/T + kappa (grad T)^2/T^2, (n,), zeta = 0."""
-    one = np.ones_like(T)
-    friction = (stress_tensor(ETA*one, 0*one, grad_v)*grad_v).sum(axis=(1, 2))
-    return friction/T + KAPPA*(grad_T**2).sum(axis=1)/T**2
-
-
-def fluid(edges: Edges, transport: Any) -> Dih:
-    """A gas with constant coefficients."""
-    return Dih(edges=edges, eos=IdealGas(), law=ConstEta(ETA, KAPPA), transport=transport)
-
-
-def smooth(x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    rho, v, T = smooth_flow(x)
-    return rho, v, 1 + HOTTER*(T - 1)
-
-
-def exact_production() -> float:
-    """Of that flow in the unit box, by derivatives that are exact."""
-    exact, (_, v, T) = Spectral((FINE, FINE)), smooth(lattice((FINE, FINE), 1/FINE).x)
-    return float(density(T, exact.grad(v), exact.grad(T)).mean())
-
-
-State = tuple[np.ndarray, np.ndarray, np.ndarray]
-
-
-@dataclass(frozen=True, kw_only=True)
-class Entropy(Case):
-    """A row for one way of transport on one set of points."""
-    way: str
-    make: Callable[[Points, Any], Edges]
-    points: str
-    cells: int
-    h: float = 2.5
-    seed: int = 1
-
-    def run(self, report: Report, folder: Path) -> Outcome:
-        kind = DISORDERS[self.points]
-        points = kind.make((self.cells, self.cells), kind.size, self.seed)
-        dih = fluid(self.make(points, WendlandC2.of(h=self.h)), WAYS[self.way])
-        key = {"transport": self.way, "maker": self.make.__name__, "points": self.points,
-               "state": type(self).__name__, "cells": self.cells, "seed": self.seed}
-        return Outcome({"entropy": [key | self.row(dih, points)]})
-
-    def row(self, dih: Dih, points: Points) -> dict[str, float]:
-        """What is measured."""
-        raise NotImplementedError
-
-
-def seen(dih: Dih, state: State) -> tuple[Flow, np.ndarray]:
-    """Fields, and what edges produce."""
-    flow = dih.flow(dih.state(*state))
-    return flow, produced(dih, flow)
+    edges, flow = dih.edges, dih.flow(dih.state(*state))
+    (_, f, e), (v, T), i, j = dih.transport.fluxes(dih, flow), flow[1:3], edges.i, edges.j
+    return ((v[i]*f).sum(axis=1) - e)/T[i] + (e - (v[j]*f).sum(axis=1))/T[j]
 
 
 def summed(q: np.ndarray) -> float:
@@ -101,43 +47,58 @@ def summed(q: np.ndarray) -> float:
     return float(q.sum()/np.abs(q).sum())
 
 
-class Smooth(Entropy):
-    """One wave along each axis; in 2D the production does not depend on the spacing."""
-
-    def row(self, dih: Dih, points: Points) -> dict[str, float]:
-        _, q = seen(dih, smooth(points.x/self.cells))
-        return {"total": q.sum()/exact_production(), "least": summed(q), "negative": np.mean(q < 0)}
+def smooth(x: np.ndarray) -> State:
+    """One wave along each axis of the unit box."""
+    rho, v, T = smooth_flow(x)
+    return rho, v, 1 + HOTTER*(T - 1)
 
 
-class Random(Entropy):
-    """States without any correlation; total over what the points' own gradients produce."""
-
-    def row(self, dih: Dih, points: Points) -> dict[str, float]:
-        rng, edges, slope = np.random.default_rng(self.seed), dih.edges, NestedFluxes().gradient
-        totals, sums, negative = [], [], []
-        for _ in range(DRAWS):
-            rho, v = rng.uniform(0.5, 1.5, points.n), rng.normal(0, 0.3, (points.n, 2))
-            flow, q = seen(dih, (rho, v, np.exp(rng.normal(0, SPREAD, points.n))))
-            own = density(flow.T, slope(edges, v), slope(edges, flow.T[:, None])[:, :, 0])
-            totals.append(q.sum()/(edges.V@own))
-            sums.append(summed(q))
-            negative.append(np.mean(q < 0))
-        return {"total": np.mean(totals), "least": min(sums), "negative": np.mean(negative)}
+def continuum() -> float:
+    """Of that flow in two dimensions, where it does not depend on the size of the box; zeta = 0."""
+    exact, (one, v, T) = Spectral(FINE), smooth(lattice(FINE, 1/FINE[0]).x)
+    slope, one = exact.grad(v), np.ones_like(one)
+    friction = (stress_tensor(ETA*one, 0*one, slope)*slope).sum(axis=(1, 2))
+    return float(np.mean(friction/T + KAPPA*(exact.grad(T)**2).sum(axis=1)/T**2))
 
 
-class Sought(Entropy):
-    """The state of least production that a descent from a random one finds, T within a factor of 9."""
+@dataclass(frozen=True, kw_only=True)
+class Entropy(Case):
+    """Of a smooth state, of random ones, or of the worst one that a descent from a random one finds."""
+    way: str
+    make: Callable[[Points, Any], Edges]
+    points: str
+    cells: int
+    state: str
+    seed: int = 1
     cost = 3.0
 
-    def row(self, dih: Dih, points: Points) -> dict[str, float]:
-        n, one = points.n, np.ones(points.n)
+    def run(self, report: Report, folder: Path) -> Outcome:
+        kind = DISORDERS[self.points]
+        points = kind.make((self.cells, self.cells), kind.size, self.seed)
+        dih = Dih(edges=self.make(points, WendlandC2.of(h=2.5)), eos=IdealGas(), law=ConstEta(ETA, KAPPA),
+                  transport=WAYS[self.way])
+        all_q = [produced(dih, state) for state in self.states(dih, points)]
+        total = all_q[0].sum()/continuum() if self.state == "smooth" else np.nan
+        return Outcome({"entropy": [{
+            "transport": self.way, "maker": self.make.__name__, "points": self.points, "state": self.state,
+            "cells": self.cells, "seed": self.seed, "total": total, "least": min(map(summed, all_q)),
+            "negative": np.mean([q < 0 for q in all_q])}]})
 
-        def production(fields: np.ndarray) -> np.ndarray:
-            log_T, *v = fields.reshape(3, n)
-            return seen(dih, (one, np.stack(v, axis=1), np.exp(log_T)))[1]
-        bounds = np.repeat([WIDEST, FAST, FAST], n)
-        start = np.random.default_rng(self.seed).uniform(-bounds, bounds)
-        found = minimize(lambda fields: summed(production(fields)), start, options={"maxiter": STEPS},
-                         bounds=np.stack([-bounds, bounds], axis=1))
-        q = production(found.x)
-        return {"total": np.nan, "least": summed(q), "negative": np.mean(q < 0)}
+    def states(self, dih: Dih, points: Points) -> Iterator[State]:
+        n, rng = points.n, np.random.default_rng(self.seed)
+        if self.state == "smooth":
+            yield smooth(points.x/self.cells)
+        elif self.state == "sought":
+            bounds = np.repeat([WIDEST, FAST, FAST], n)
+            found = minimize(lambda q: summed(produced(dih, unpacked(q))), rng.uniform(-bounds, bounds),
+                             bounds=np.stack([-bounds, bounds], axis=1), options={"maxiter": STEPS})
+            yield unpacked(found.x)
+        else:
+            for _ in range(DRAWS):
+                yield rng.uniform(0.5, 1.5, n), rng.normal(0, 0.3, (n, 2)), np.exp(rng.normal(0, SPREAD, n))
+
+
+def unpacked(fields: np.ndarray) -> State:
+    """Density 1, from ln T and velocities in one row."""
+    log_T, *v = fields.reshape(3, -1)
+    return np.ones_like(log_T), np.stack(v, axis=1), np.exp(log_T)

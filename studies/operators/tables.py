@@ -75,7 +75,7 @@ SHEAR_ORDERS = Table.of("shear_orders", "flow points time norm", "order order_er
 ENTROPY = Table.of("entropy", "transport maker points state cells seed", "total least negative",
                    about="Entropy that stress and heat current produce in one state, or in 200 random ones.",
                    means={"state": ("smooth; random; sought: where a descent ends", ""),
-                          "total": ("over that of the continuum; Random: of the points' gradients, mean", ""),
+                          "total": ("over that of the continuum, of the smooth state", ""),
                           "least": ("production over the sum of its sizes on edges, least of the states", ""),
                           "negative": ("share of the edges that destroy entropy", "")})
 

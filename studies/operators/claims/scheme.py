@@ -126,7 +126,7 @@ ENTROPY = (
           statement="no edge destroys entropy by forces along it that heat as they work: largest share of "
                     "edges that do, smooth, random and worst states, three kinds of edges"),
     Claim(id="own-entropy-mended", source="RR98 Eq. 51", expect=1, within=0.005, after=TRIED,
-          value=farthest("entropy", "total", transport="along edges, mended", state="Smooth", cells=64),
+          value=farthest("entropy", "total", transport="along edges, mended", state="smooth", cells=64),
           because="0.5 %: 64 cells to a wave leave 0.2 % of second order",
           statement="with their heating mended they produce the entropy of the continuum: over it, smooth "
                     "flow with T from 0.2 to 1.8, 64 cells, farthest of three kinds of edges"),
