@@ -8,10 +8,11 @@ from particles.integral.points import Points, jittered, lattice
 from particles.integral.rr98_moving_plain import MOTIONS
 from particles.weights import Lucy, WendlandC2
 from studies.conservation.forces import (
+    STILL,
+    VISCOUS,
     BesideSpam,
     EdgeTorque,
     MotionTorque,
-    disc,
     exchanges,
     relative,
 )
@@ -31,7 +32,8 @@ def torques(maker, points="jittered-0.3", seed=4):
 
 
 def test_torques_of_edges_are_those_of_their_ends():
-    points = disc(2)
+    x = lattice((6, 6)).x + np.random.default_rng(2).uniform(-0.3, 0.3, (36, 2))
+    points = Points(x=x, box=np.array([20.0, 20.0]), V=np.ones(36))
     edges = plain(points, Lucy.of(h=3.0))
     for name, f in exchanges(edges, random_fields(points, 0.1, 2)):
         force = np.stack([np.bincount(edges.j, one, edges.n) - np.bincount(edges.i, one, edges.n)
@@ -71,14 +73,14 @@ def test_crossed_pressure_turns_by_a_product_of_differences():
 
 @pytest.mark.parametrize("motion", MOTIONS)
 def test_motions_keep_angular_momentum_where_masses_stay(motion):
-    case = MotionTorque(motion=motion, kind=MOTIONS[motion], friction="none", seed=3)
+    case = MotionTorque(motion=motion, kind=MOTIONS[motion], law=STILL)
     torque = rows_of(case, "motion_torques")[0]["torque"]
     assert torque < ZERO if motion in ("carried", "constant-mass") else torque > BROKEN
 
 
 def test_smooth_particles_push_along_pairs_and_rub_across():
-    found = [rows_of(MotionTorque(motion="spam", kind=None, friction=friction), "motion_torques")[0]["torque"]
-             for friction in ("none", "as printed")]
+    found = [rows_of(MotionTorque(motion="spam", kind=None, law=law), "motion_torques")[0]["torque"]
+             for law in (STILL, VISCOUS)]
     assert found[0] < ZERO and found[1] > BROKEN
 
 
@@ -94,4 +96,3 @@ def test_equation_50_begins_as_smooth_particles_and_leaves_them_as_volumes_do():
 def test_a_force_around_the_middle_is_all_torque():
     x = lattice((4, 4)).x
     assert relative(x, x[:, ::-1]*[-1, 1]) == pytest.approx(1, rel=1e-15)
-    assert isinstance(disc(1), Points) and np.hypot(*disc(1).x.T).max() < 6

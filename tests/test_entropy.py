@@ -9,6 +9,7 @@ from particles.integral.dih import Dih
 from particles.integral.edge_makers import MAKERS, delaunay, exact, renormalised
 from particles.integral.points import jittered, lattice
 from particles.weights import WendlandC2
+from studies.build.setting import DISORDERS
 from studies.operators.entropy import WAYS, Entropy, produced
 from studies.operators.equations import ETA, KAPPA, transported
 
@@ -49,7 +50,9 @@ def test_a_stream_produces_nothing_more_but_where_derivatives_do_not_commute(way
 
 
 def row(way, make, points, cells, state):
-    return rows_of(Entropy(way=way, make=make, points=points, cells=cells, state=state, seed=7), "entropy")[0]
+    case = Entropy(way=way, make=make, disorder=DISORDERS[points], counts=(cells, cells), h=2.5, state=state,
+                   seed=7)
+    return rows_of(case, "entropy")[0]
 
 
 def test_what_edges_produce_tends_to_the_continuum_if_the_heating_is_that_of_the_stress():

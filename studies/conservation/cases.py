@@ -28,8 +28,8 @@ from studies.conservation.drift import (
     MovingDrift,
     Wall,
 )
-from studies.conservation.forces import BesideSpam, EdgeTorque, MotionTorque
-from studies.conservation.motions import ALONG, BracketForce, Identity, MovingSound, Pattern, Signs
+from studies.conservation.forces import VISCOUS, BesideSpam, EdgeTorque, MotionTorque
+from studies.conservation.motions import ALONG, STILL, BracketForce, Identity, MovingSound, Pattern, Signs
 from studies.conservation.slow_flows import VARIANTS, CylinderDrag, SlidingShear, TurningWave
 from studies.conservation.sums import CUBE, EVERYTHING, LINE, SQUARE, DihDrift, Unsymmetric
 from studies.kit.case import Case
@@ -148,10 +148,8 @@ def torques(seeds: int) -> Iterator[Case]:
     for (maker, points), seed in product(pairs(("lattice", "jittered-0.3")), range(1, seeds + 1)):
         if seed == 1 or points != "lattice":
             yield EdgeTorque(make=MAKERS[maker], points=points, seed=seed)
-    for (name, kind), friction in product(MOTIONS.items(), ("none", "Eq. 37", "Eq. 51")):
-        yield MotionTorque(motion=name, kind=kind, friction=friction)
-    for friction in ("none", "as printed"):
-        yield MotionTorque(motion="spam", kind=None, friction=friction)
+    for (name, kind), law in product((*MOTIONS.items(), ("spam", None)), (STILL, VISCOUS)):
+        yield MotionTorque(motion=name, kind=kind, law=law)
 
 
 def quick() -> Iterator[Case]:

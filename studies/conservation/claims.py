@@ -182,22 +182,21 @@ BODIES = (
             statement="points on the surface: drag extrapolated to infinitely fine points against print, "
                       f"relative, solid fraction {c:g}") for c, printed in ((0.1, "24.83"), (0.3, "102.90"))),
 )
-WEIGHTED, LINEAR = ("plain", "renormalised", "printed"), ("delaunay", "exact")
 PRESSURES = ("pressure, P_i + P_j", "pressure, Eq. 13")
 HALVED = (PRESSURES[0], "convection, half of each end", "friction, Eq. 37")
 SUMMED: dict[str, Any] = {"at_most": 1e-14, "because": "round-off of some thousand terms, summed once",
                           "after": "torques of one seed had been seen"}
 TORQUES = (
     Claim(id="own-angular-central", source="RR98 Eqs 35, 49, 51", **SUMMED,
-          value=largest_of(largest("torques", "torque", exchange=PRESSURES, maker=WEIGHTED),
+          value=largest_of(largest("torques", "torque", exchange=PRESSURES, maker=("plain", "printed")),
                            largest("torques", "torque", exchange="friction, Eq. 51, B = 0"),
-                           largest("motion_torques", "torque", friction="none",
+                           largest("motion_torques", "torque", viscosity=0.0,
                                    motion=("carried", "constant-mass", "spam"))),
           statement="forces along edges keep angular momentum on any points: largest torque over its size of "
-                    "pressures along edges of a weight, of friction with B = 0, and of all forces without "
-                    "friction on moving points where masses stay"),
+                    "pressures by a weight, of friction with B = 0, of all forces on moving points whose "
+                    "masses stay, without friction"),
     Claim(id="own-angular-linear", source="RR98 Eqs 35, 37", **SUMMED,
-          value=largest("torques", "torque", exchange=HALVED, maker=LINEAR),
+          value=largest("torques", "torque", exchange=HALVED, maker=("delaunay", "exact")),
           statement="edges that are exact on linear fields keep angular momentum though areas are not along "
                     "edges, if each end gives half of a symmetric stress: largest torque over its size of "
                     "P_i + P_j, of rho v v halved, of Eq. 37 with constant eta, Delaunay and exact edges"),

@@ -26,10 +26,8 @@ from studies.conservation.motions import ALONG, DT, STILL, acceleration, march, 
 from studies.conservation.sums import SIZE, random_fields
 from studies.kit.case import Case, Outcome, Report
 
-#: rho (n,), v (n, 2), T (n,)
-Fields = tuple[np.ndarray, np.ndarray, np.ndarray]
 ETA, LUCY = 0.1, Lucy.of(h=3.0)
-THICK = ConstEta(ETA, ETA)
+VISCOUS = ConstEta(ETA, ETA)
 RADIUS, WIDE = 6.0, (40, 40)        # of a disc with a free rim, in a box that its pairs do not cross
 
 
@@ -39,20 +37,20 @@ def relative(x: np.ndarray, f: np.ndarray) -> float:
     return float(abs(torque)/(np.hypot(*x.T)*np.hypot(*f.T)).sum())
 
 
-def exchanges(edges: Edges, fields: Fields) -> Iterator[tuple[str, np.ndarray]]:
-    """Name and momentum (E, 2) that leaves the first point of each edge."""
-    dih = Dih(edges=edges, eos=IdealGas(), law=THICK, transport=ALONG)
+def exchanges(edges: Edges, fields: Any) -> Iterator[tuple[str, np.ndarray]]:
+    """Name and momentum (E, 2) that leaves the first point of each edge, of (rho, v, T)."""
+    dih = Dih(edges=edges, eos=IdealGas(), law=VISCOUS, transport=ALONG)
     flow = dih.flow(dih.state(*fields))
     a, b, half = take(flow, edges.i), take(flow, edges.j), edges.S/2
     crossed = half*(a.rho*b.T + b.rho*a.T)[:, None]
-    stress = flow.rho[:, None, None]*flow.v[:, :, None]*flow.v[:, None, :]
+    stresses = sum(q.rho[:, None]*q.v*(half*q.v).sum(axis=1)[:, None] for q in (a, b))
     yield "pressure, P_i + P_j", half*(a.P + b.P)[:, None]
     yield "pressure, Eq. 13", crossed
     yield "convection, Eq. 35", carried(dih.eos, edges.S, a, b).momentum - crossed
-    yield "convection, half of each end", np.einsum("eb,eab->ea", half, stress[edges.i] + stress[edges.j])
-    for name, kind, zeta in (("Eq. 51", ALONG, 0.0), ("Eq. 51, B = 0", ALONG, 2*ETA),
-                             ("Eq. 37", NestedFluxes(), 0.0)):
-        yield f"friction, {name}", kind.fluxes(replace(dih, zeta=zeta), flow).momentum
+    yield "convection, half of each end", stresses
+    yield "friction, Eq. 51", dih.transport.fluxes(dih, flow).momentum
+    yield "friction, Eq. 51, B = 0", dih.transport.fluxes(replace(dih, zeta=2*ETA), flow).momentum
+    yield "friction, Eq. 37", NestedFluxes().fluxes(dih, flow).momentum
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -71,78 +69,39 @@ class EdgeTorque(Case):
                                     for name, f in exchanges(edges, fields)]})
 
 
-def disc(seed: int) -> Points:
-    """Jittered points around the origin; nothing is beyond them."""
-    points = jittered(WIDE, 0.3, seed)
-    x = points.x[np.hypot(*points.x.T) < RADIUS]
-    return Points(x=x, box=points.box, V=np.ones(len(x)))
-
-
 @dataclass(frozen=True, kw_only=True)
 class MotionTorque(Case):
-    """Of all forces on that disc, for a motion of the points, or for smooth particles (no kind)."""
+    """Of all forces on a disc of jittered points, for a motion of these, or for smooth particles (no kind).
+
+    law : with friction, nested.
+    """
     motion: str
     kind: Any
-    friction: str
-    seed: int = 1
+    law: ConstEta
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        points = disc(self.seed)
-        push = self.pushed if self.kind else self.of_smooth
-        force = push(points, STILL if self.friction == "none" else THICK)
-        return Outcome({"motion_torques": [{"motion": self.motion, "friction": self.friction,
-                                            "seed": self.seed, "torque": relative(points.x, force)}]})
+        points = jittered(WIDE, 0.3, 1)
+        x = points.x[np.hypot(*points.x.T) < RADIUS]
+        points = Points(x=x, box=points.box, V=np.ones(len(x)))
+        force = self.pushed(points) if self.kind else rates_of(*smooth(points, self.law))[2:4].T
+        return Outcome({"motion_torques": [
+            {"motion": self.motion, "viscosity": self.law.eta, "torque": relative(x, force)}]})
 
-    def pushed(self, points: Points, law: Any) -> np.ndarray:
+    def pushed(self, points: Points) -> np.ndarray:
         """d(momentum)/dt of each point, (n, 2)."""
-        transport = NestedFluxes() if self.friction == "Eq. 37" else ALONG
-        method = moving(self.kind, points, LUCY, law, transport=transport)
-        fields = densities(method.eos, *random_fields(points, SIZE, self.seed))
+        method = moving(self.kind, points, LUCY, self.law, transport=NestedFluxes())
+        fields = densities(method.eos, *random_fields(points, SIZE, 1))
         state = np.concatenate([points.x.T, method.owned(points.V)*fields, points.V[None]])
         rates = np.empty_like(state)
         method.rates(state, rates)
         up, down = (q[3:5]*q[-1]/method.owned(q[-1]) for q in (state + rates, state - rates))
         return (up - down).T/2              # exact: products of two
 
-    def of_smooth(self, points: Points, law: Any) -> np.ndarray:
-        """The same of smooth particles of unit mass, stress as printed    [KHP95, Sec. II]"""
-        method, (_, v, T) = smooth_particles(LUCY, tuple(points.box), law=law), random_fields(points, SIZE, 1)
-        return rates_of(method, method.state(points.x, 1.0, v, T))[2:4].T
 
-
-@dataclass(frozen=True, kw_only=True)
-class BesideSpam(Case):
-    """Eq. 50 and smooth particles, from one state without friction: random fields, jittered points, m = 1.
-
-    Volumes begin as 1/rho of the summed density, and follow the flow. With a = 1, b = -1 a pair then has
-    V_i V_j (P_i rho_j/rho_i + P_j rho_i/rho_j) = P_i/rho_i^2 + P_j/rho_j^2. How volumes go on and what heats
-    is different.
-    """
-    a: float
-    b: float
-    time: float = 5.0
-
-    def run(self, report: Report, folder: Path) -> Outcome:
-        points = jittered((16, 16), 0.2, 1)
-        smooth, (_, v, T) = smooth_particles(LUCY, tuple(points.box)), random_fields(points, SIZE, 1)
-        start = smooth.state(points.x, 1.0, v, T)
-        V = smooth.fields(start).V
-        method = moving(ConstantMass, points, LUCY, scale=1.0, bracket=Powers(self.a, self.b))
-        first = np.concatenate([points.x.T, V*densities(method.eos, 1/V, v, T), V[None]])
-        steps = round(self.time/DT)
-        last = march(method, first.copy(), DT, steps, np.copy)[-1]
-        ended = run(smooth, start, Plan(dt=DT, steps=steps))
-        other = ended.state[:, np.argsort(ended.ids)]
-        pushed = acceleration(method, first), rates_of(smooth, start)[2:4]
-        return Outcome({"beside": [{
-            "a": self.a, "b": self.b, "start": apart(*pushed),
-            "end": apart(method.velocity(last), other[2:4]),
-            "volumes": apart(last[-1], smooth.fields(other).V)}]})
-
-
-def apart(one: np.ndarray, other: np.ndarray) -> float:
-    """Rms of a difference over that of the second."""
-    return float(np.linalg.norm(one - other)/np.linalg.norm(other))
+def smooth(points: Points, law: Any = STILL) -> tuple[Spam, np.ndarray]:
+    """Smooth particles of unit mass and random velocities and temperatures."""
+    method, (_, v, T) = smooth_particles(LUCY, tuple(points.box), law=law), random_fields(points, SIZE, 1)
+    return method, method.state(points.x, 1.0, v, T)
 
 
 def rates_of(method: Spam, state: np.ndarray) -> np.ndarray:
@@ -151,3 +110,34 @@ def rates_of(method: Spam, state: np.ndarray) -> np.ndarray:
     rates = np.empty_like(state)
     sums.rates(ordered, rates)
     return rates[:, np.argsort(ids)]
+
+
+@dataclass(frozen=True, kw_only=True)
+class BesideSpam(Case):
+    """Eq. 50 and smooth particles, from one state without friction: random fields, jittered points, m = 1.
+
+    Volumes begin as 1/rho of the summed density, and follow the flow. With a = 1, b = -1 a pair then has
+    V_i V_j (P_i rho_j/rho_i + P_j rho_i/rho_j) = P_i/rho_i^2 + P_j/rho_j^2.
+    """
+    a: float
+    b: float
+    time: float = 5.0
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        points, steps = jittered((16, 16), 0.2, 1), round(self.time/DT)
+        spam, start = smooth(points)
+        V = spam.fields(start).V
+        method = moving(ConstantMass, points, LUCY, scale=1.0, bracket=Powers(self.a, self.b))
+        first = np.concatenate([points.x.T, V*densities(method.eos, 1/V, start[2:4].T, start[4]), V[None]])
+        pushed = acceleration(method, first), rates_of(spam, start)[2:4]
+        last, ended = march(method, first, DT, steps, np.copy)[-1], run(spam, start, Plan(dt=DT, steps=steps))
+        other = ended.state[:, np.argsort(ended.ids)]
+        velocities = method.velocity(last), other[2:4]
+        return Outcome({"beside": [{
+            "a": self.a, "b": self.b, "start": apart(*pushed), "end": apart(*velocities),
+            "volumes": apart(last[-1], spam.fields(other).V)}]})
+
+
+def apart(one: np.ndarray, other: np.ndarray) -> float:
+    """Rms of a difference over that of the second."""
+    return float(np.linalg.norm(one - other)/np.linalg.norm(other))

@@ -16,7 +16,7 @@ SOUND = {"speed": ("speed of sound over c", "")}
 SIZE = {"rows": ("points along the side of the cell", ""), "variant": ("how the body is made", ""),
         "error": ("drag/published - 1", "")}
 TORQUE = {"exchange": ("of momentum: an equation, or halves of the ends' own", ""),
-          "friction": ("the equation of the friction", ""),
+          "viscosity": ("of nested friction", ""),
           "torque": ("|sum x cross f| over sum |x| |f|, x the edge or the place of the point", "")}
 RINGS = {"rows": ("points along the side of the box", "")}
 
@@ -50,7 +50,7 @@ ALL = (
                     "volumes": ("of volumes from 1 over the summed density, then", "")}),
     Table.of("torques", "exchange maker points seed", "torque", means=TORQUE,
              about="What an exchange over edges does to angular momentum, random fields, points that stay."),
-    Table.of("motion_torques", "motion friction seed", "torque", means=TORQUE,
+    Table.of("motion_torques", "motion viscosity", "torque", means=TORQUE,
              about="The same of all forces on a disc of moving points with a free rim."),
     Table("drag", key=["variant", "fraction", "rows", "reynolds"], columns=[
         "variant", "fraction", "rows", "radius", "drag", "drag_err", "published", "published_err", "error",

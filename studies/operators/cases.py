@@ -3,7 +3,6 @@
 Lengths in spacings; densities, temperatures and sound speeds about 1. Paper size: ten minutes of one core.
 """
 from collections.abc import Iterable, Iterator
-from functools import partial
 from itertools import product
 
 from continuum.exact.shear import couette, poiseuille
@@ -127,8 +126,9 @@ def layers(quick: bool) -> Iterator[Case]:
 def entropy(quick: bool) -> Iterator[Case]:
     """Smooth, random and worst states; the range of 2.5 a fits into six cells."""
     sets = ((renormalised, "lattice"), (delaunay, "jittered-0.3"), (exact, "jittered-0.3"))
-    for way, (make, points) in product(WAYS, sets):
-        run = partial(Entropy, way=way, make=make, points=points)
-        yield from (run(state="smooth", cells=n) for n in ((16,) if quick else (16, 32, 64)))
-        yield from (run(state="sought", cells=6, seed=seed) for seed in SEEDS[:1 if quick else 3])
-        yield run(state="random", cells=10)
+    states = (("smooth", (16,) if quick else (16, 32, 64), (1,)), ("random", (10,), (1,)),
+              ("sought", (6,), SEEDS[:1 if quick else 3]))
+    for way, (make, kind), (state, sizes, seeds) in product(WAYS, sets, states):
+        for n, seed in product(sizes, seeds):
+            yield Entropy(way=way, make=make, disorder=DISORDERS[kind], counts=(n, n), h=2.5, state=state,
+                          seed=seed)
