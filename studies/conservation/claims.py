@@ -192,14 +192,12 @@ TORQUES = (
                            largest("torques", "torque", exchange="friction, Eq. 51, B = 0"),
                            largest("motion_torques", "torque", viscosity=0.0,
                                    motion=("carried", "constant-mass", "spam"))),
-          statement="forces along edges keep angular momentum on any points: largest torque over its size of "
-                    "pressures by a weight, of friction with B = 0, of all forces on moving points whose "
-                    "masses stay, without friction"),
+          statement="forces along edges keep angular momentum on any points: largest torque over its size, "
+                    "pressures by a weight, friction with B = 0, moving points whose masses stay"),
     Claim(id="own-angular-linear", source="RR98 Eqs 35, 37", **SUMMED,
           value=largest("torques", "torque", exchange=HALVED, maker=("delaunay", "exact")),
-          statement="edges that are exact on linear fields keep angular momentum though areas are not along "
-                    "edges, if each end gives half of a symmetric stress: largest torque over its size of "
-                    "P_i + P_j, of rho v v halved, of Eq. 37 with constant eta, Delaunay and exact edges"),
+          statement="edges exact on linear fields keep angular momentum if each end gives half of a symmetric "
+                    "stress: largest torque over its size, P_i + P_j, rho v v halved, Eq. 37, two makers"),
     Claim(id="own-angular-convection", source="RR98 Eq. 35", **SUMMED,
           value=largest("torques", "torque", exchange="convection, Eq. 35"),
           statement="convection as printed, p_i v_j + p_j v_i, keeps angular momentum: largest torque over "

@@ -26,8 +26,7 @@ from studies.conservation.motions import ALONG, DT, STILL, acceleration, march, 
 from studies.conservation.sums import SIZE, random_fields
 from studies.kit.case import Case, Outcome, Report
 
-ETA, LUCY = 0.1, Lucy.of(h=3.0)
-VISCOUS = ConstEta(ETA, ETA)
+LUCY, VISCOUS = Lucy.of(h=3.0), ConstEta(0.1, 0.1)
 RADIUS, WIDE = 6.0, (40, 40)        # of a disc with a free rim, in a box that its pairs do not cross
 
 
@@ -49,7 +48,7 @@ def exchanges(edges: Edges, fields: Any) -> Iterator[tuple[str, np.ndarray]]:
     yield "convection, Eq. 35", carried(dih.eos, edges.S, a, b).momentum - crossed
     yield "convection, half of each end", stresses
     yield "friction, Eq. 51", dih.transport.fluxes(dih, flow).momentum
-    yield "friction, Eq. 51, B = 0", dih.transport.fluxes(replace(dih, zeta=2*ETA), flow).momentum
+    yield "friction, Eq. 51, B = 0", dih.transport.fluxes(replace(dih, zeta=2*VISCOUS.eta), flow).momentum
     yield "friction, Eq. 37", NestedFluxes().fluxes(dih, flow).momentum
 
 

@@ -129,11 +129,9 @@ DEBYE = (
           printed="guarantees convergence of the long-wavelength density fluctuations to the corresponding "
                   "Debye spectrum",
           value=farthest("debye", "sound", h=6.0),
-          statement="long density waves on a lattice are as many as in the fluid where ranges are wide: "
-                    "Debye's N(omega) of the faster waves over that of sound, h = 6 a, the farthest off of "
-                    "three weights on two lattices",
-          because="5 %, the few percent to which the paper has its flows",
-          after="numbers at other ranges had been seen"),
+          statement="long density waves on a lattice are as many as in the fluid: Debye's N(omega) of faster "
+                    "waves over that of sound, h = 6 a, the farthest off of three weights, two lattices",
+          because="5 %, the few percent to which the paper has its flows", after="all ranges had been seen"),
 )
 #: flows of the printed scheme that most is asked of
 VORTICES: dict[str, Any] = {"variant": "printed", "mode": "stirred", "start": "square", "thick": 1.0,

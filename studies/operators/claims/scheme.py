@@ -133,8 +133,7 @@ ENTROPY = (
     Claim(id="own-entropy-nested", source="RR98 Eqs 37, 38", at_least=0, after=TRIED,
           value=least("entropy", "least", transport="nested"), because="the second law",
           statement="nested stress and heat current destroy entropy in no state: least production over the "
-                    "sum of its sizes on edges, smooth and random states, and sought ones with T within a "
-                    "factor of 9"),
+                    "sum of its sizes, smooth, random and sought states with T within a factor of 9"),
 )
 ALONG = (
     Claim(id="rr98-eq51-identify", source="RR98 Eq. 51", printed="one cannot independently identify",
