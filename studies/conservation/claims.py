@@ -197,7 +197,7 @@ TORQUES = (
     Claim(id="own-angular-linear", source="RR98 Eqs 35, 37", **SUMMED,
           value=largest("torques", "torque", exchange=HALVED, maker=("delaunay", "exact")),
           statement="edges exact on linear fields keep angular momentum if each end gives half of a "
-                    "symmetric stress: largest torque over its size, P_i + P_j, rho v v halved, Eq. 37, two makers"),
+                    "symmetric stress: largest torque over its size, P_i + P_j, rho v v halved, Eq. 37"),
     Claim(id="own-angular-convection", source="RR98 Eq. 35", **SUMMED,
           value=largest("torques", "torque", exchange="convection, Eq. 35"),
           statement="convection as printed, p_i v_j + p_j v_i, keeps angular momentum: largest torque over "
