@@ -28,7 +28,8 @@ from studies.conservation.drift import (
     MovingDrift,
     Wall,
 )
-from studies.conservation.motions import ALONG, BracketForce, Identity, MovingSound, Pattern, Signs
+from studies.conservation.forces import VISCOUS, BesideSpam, EdgeTorque, MotionTorque
+from studies.conservation.motions import ALONG, STILL, BracketForce, Identity, MovingSound, Pattern, Signs
 from studies.conservation.slow_flows import VARIANTS, CylinderDrag, SlidingShear, TurningWave
 from studies.conservation.sums import CUBE, EVERYTHING, LINE, SQUARE, DihDrift, Unsymmetric
 from studies.kit.case import Case
@@ -116,6 +117,7 @@ def once() -> Iterator[Case]:
     """Equations evaluated once."""
     yield Signs()
     yield from (BracketForce(a=float(a), b=float(b)) for a, b in POWERS)
+    yield from (BesideSpam(a=float(a), b=float(b)) for a, b in ((1, -1), (0, 0), (2, 0)))
     for (name, transport), reynolds in product((("nested", NestedFluxes()), ("pairwise", ALONG)), REYNOLDS):
         yield Identity(name=name, transport=transport, reynolds=reynolds)
 
@@ -141,12 +143,21 @@ def sliding(waves: tuple[int, ...]) -> Iterator[Case]:
     yield from (SlidingShear(rows=rows) for rows in waves[:3])
 
 
+def torques(seeds: int) -> Iterator[Case]:
+    """Of exchanges over edges, of motions, of smooth particles."""
+    for (maker, points), seed in product(pairs(("lattice", "jittered-0.3")), range(1, seeds + 1)):
+        if seed == 1 or points != "lattice":
+            yield EdgeTorque(make=MAKERS[maker], points=points, seed=seed)
+    for (name, kind), law in product((*MOTIONS.items(), ("spam", None)), (STILL, VISCOUS)):
+        yield MotionTorque(motion=name, kind=kind, law=law)
+
+
 def quick() -> Iterator[Case]:
     """Short runs with one weight, no relaxed points and none that move over closed faces; small bodies."""
     some = KINDS[:2], WEIGHT_KINDS[:1]
     yield from (*layers(*some, steps=300), *plates(*some, steps=300))
     yield from (*dimensions(300, seeds=2), *motions(40, WEIGHT_KINDS[:1]), *once(), *speeds((8,)))
-    yield from sliding((12, 16, 24))
+    yield from (*sliding((12, 16, 24)), *torques(1))
     yield from drags(0.1, {"surface": (12, 16), "frozen": (12, 16)})
 
 
@@ -155,7 +166,7 @@ def paper() -> Iterator[Case]:
     yield from (*layers(KINDS, WEIGHT_KINDS, 10_000), *plates(KINDS, WEIGHT_KINDS, 10_000))
     yield from (*dimensions(10_000, seeds=24), *motions(10_000, WEIGHT_KINDS), *once(), *moving())
     yield from speeds((8, 16, 24, 32))
-    yield from sliding((16, 24, 32, 48, 64))
+    yield from (*sliding((16, 24, 32, 48, 64)), *torques(3))
     for fraction, every in ((0.1, 1), (0.3, 4)):
         yield from drags(fraction, {"surface": SMOOTH, "frozen": SCATTERED[::every],
                                     "frozen-grown": SCATTERED[::every]})

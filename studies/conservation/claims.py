@@ -138,6 +138,10 @@ MOVING = (
           statement="a = 1, b = -1, smoothed particles with their own masses: force over -grad P, wave "
                     "without entropy of 32 a",
           because=SMOOTHED),
+    Claim(id="rr98-eq50-spam", source="RR98 Eq. 50", printed="SPH is formulated with forms such as",
+          at_most=1e-12, value=one("beside", "start", a=1, b=-1), because=f"round-off of 30 terms; {ALONE}",
+          statement="a = 1, b = -1 on volumes m/rho of the summed density are the accelerations of SPAM: rms "
+                    "difference over their rms, random fields on jittered points"),
     Claim(id="rr98-eq50-any", source="RR98 Eq. 50", printed=CONSTANTS, at_most=0.02, headline=True,
           value=largest("brackets", "abs(force - 1)", "a + b != 0"),
           statement="any constants a and b make Eq. 49 the momentum equation where volumes follow the flow: "
@@ -178,4 +182,25 @@ BODIES = (
             statement="points on the surface: drag extrapolated to infinitely fine points against print, "
                       f"relative, solid fraction {c:g}") for c, printed in ((0.1, "24.83"), (0.3, "102.90"))),
 )
-CLAIMS = (*FIXED, *MOVING, *BODIES)
+PRESSURES = ("pressure, P_i + P_j", "pressure, Eq. 13")
+HALVED = (PRESSURES[0], "convection, half of each end", "friction, Eq. 37")
+SUMMED: dict[str, Any] = {"at_most": 1e-14, "because": "round-off of some thousand terms, summed once",
+                          "after": "torques of one seed had been seen"}
+TORQUES = (
+    Claim(id="own-angular-central", source="RR98 Eqs 35, 49, 51", **SUMMED,
+          value=largest_of(largest("torques", "torque", exchange=PRESSURES, maker=("plain", "printed")),
+                           largest("torques", "torque", exchange="friction, Eq. 51, B = 0"),
+                           largest("motion_torques", "torque", viscosity=0.0,
+                                   motion=("carried", "constant-mass", "spam"))),
+          statement="forces along edges keep angular momentum on any points: largest torque over its size, "
+                    "pressures by a weight, friction with B = 0, moving points whose masses stay"),
+    Claim(id="own-angular-linear", source="RR98 Eqs 35, 37", **SUMMED,
+          value=largest("torques", "torque", exchange=HALVED, maker=("delaunay", "exact")),
+          statement="edges exact on linear fields keep angular momentum if each end gives half of a "
+                    "symmetric stress: largest torque over its size, P_i + P_j, rho v v halved, Eq. 37"),
+    Claim(id="own-angular-convection", source="RR98 Eq. 35", **SUMMED,
+          value=largest("torques", "torque", exchange="convection, Eq. 35"),
+          statement="convection as printed, p_i v_j + p_j v_i, keeps angular momentum: largest torque over "
+                    "its size, all makers of edges, lattice and jittered points"),
+)
+CLAIMS = (*FIXED, *MOVING, *BODIES, *TORQUES)

@@ -15,6 +15,9 @@ from studies.kit.table import Rows, Table, Tables
 SOUND = {"speed": ("speed of sound over c", "")}
 SIZE = {"rows": ("points along the side of the cell", ""), "variant": ("how the body is made", ""),
         "error": ("drag/published - 1", "")}
+TORQUE = {"exchange": ("of momentum: an equation, or halves of the ends' own", ""),
+          "viscosity": ("of nested friction", ""),
+          "torque": ("|sum x cross f| over sum |x| |f|, x the edge or the place of the point", "")}
 RINGS = {"rows": ("points along the side of the box", "")}
 
 ALL = (
@@ -41,6 +44,14 @@ ALL = (
              about="What an equation adds to a rate of change, by sums over a lattice."),
     Table.of("brackets", "a b", "force", about="The bracket of Eq. 50 in a wave without entropy.",
              means={"force": ("force over -grad P", "")}),
+    Table.of("beside", "a b", "start end volumes",
+             about="Eq. 50 beside smooth particles, from one state: relative rms differences.",
+             means={"start": ("of accelerations at the start", ""), "end": ("of velocities after 5 t0", ""),
+                    "volumes": ("of volumes from 1 over the summed density, then", "")}),
+    Table.of("torques", "exchange maker points seed", "torque", means=TORQUE,
+             about="What an exchange over edges does to angular momentum, random fields, points that stay."),
+    Table.of("motion_torques", "motion viscosity", "torque", means=TORQUE,
+             about="The same of all forces on a disc of moving points with a free rim."),
     Table("drag", key=["variant", "fraction", "rows", "reynolds"], columns=[
         "variant", "fraction", "rows", "radius", "drag", "drag_err", "published", "published_err", "error",
         "error_err", "reynolds", "mach", "dt", "steps"], means=SIZE,

@@ -9,6 +9,7 @@ from studies.build.spam import VARIANTS, Variant
 from studies.kit.case import Case
 from studies.kit.table import Table
 from studies.lattices.crystals import LATTICES, Crystal, LatticeGrowth, Onset, Speed
+from studies.lattices.debye import Debye
 from studies.lattices.frozen_flow import Fastest, Freezing
 from studies.lattices.loss import TABLES as LOSS
 from studies.lattices.loss import Thickened
@@ -46,7 +47,7 @@ def quick() -> Iterator[Case]:
     """A few of each kind."""
     yield from list(growth())[::5]
     yield from list(onsets())[::9]
-    yield from speeds()
+    yield from (*speeds(), *spectra())
     for U, variant in product((0.05, 0.1, 0.2), ("printed", "less-static-50")):
         yield Stirred(variant=VARIANTS[variant], rows=25, U=U, time=3.0)
     yield Stirred(variant=VARIANTS["printed"], rows=25, time=1.0, held=False)
@@ -59,7 +60,7 @@ def paper() -> Iterator[Case]:
     yield from growth()
     yield from onsets()
     yield from freezing()
-    yield from speeds()
+    yield from (*speeds(), *spectra())
     yield from (*stirred(), *aligned(), *ranges(), *(Thickened(ra=ra) for ra in RAYLEIGH))
 
 
@@ -95,6 +96,12 @@ def speeds() -> Iterator[Case]:
     """Of sound."""
     for lattice, weight in product(LATTICES.values(), WEIGHTS):
         yield Speed(lattice=lattice, weight=weight)
+
+
+def spectra() -> Iterator[Case]:
+    """Of frozen lattices, in boxes of some thousand particles."""
+    for crystal, kind, h in product((HEXAGONAL, SQUARE), WEIGHTS, (2.5, 3.0, 4.0, 5.0, 6.0)):
+        yield Debye(crystal=replace(crystal, weight=kind, h=h, cells=(60, 35)))
 
 
 def stirred() -> Iterator[Stirred]:
@@ -167,6 +174,15 @@ FREEZING_FLOW = Table.of("freezing_flow", "ra rows", "fastest",
                          about="How uneven the grid's flow of that gas is.")
 SPEEDS = Table.of("sound_speeds", "lattice weight", "speed", about="The longest waves along x on a lattice.",
                   means={"speed": ("speed of sound over the fluid's", "")})
+DEBYE = Table.of("debye", CRYSTAL, "sound shear growing",
+                 about="Long waves on a lattice: their number below a frequency over that of the fluid's.",
+                 means={"sound": ("of the faster ones", ""),
+                        "shear": ("of the slower ones, if none grows", ""),
+                        "growing": ("share of all waves that grow: lattices that melt by themselves", "")})
+SPECTRUM = Table.of("spectrum", f"{CRYSTAL} omega", "modes fluid",
+                    about="Waves a particle on a lattice where none grows, with frequencies below omega.",
+                    means={"omega": ("frequency", "1/t0"), "modes": ("their number", ""),
+                           "fluid": ("Debye's, of sound alone", "")})
 RUN = "variant h corrected rows seed"
 OVER = "over that of the exact flow"
 DRIVEN = Table.of(
@@ -193,4 +209,4 @@ DECAYS = Table.of(
            "predicted": ("the sum of the three beside it", ""), "symbol": ("as in driven", ""),
            "deviator": ("stress of the pressure sum over that of friction, mean over time", ""),
            "kinetic": ("the same of the noise", "")})
-TABLES = (GROWTH, ONSETS, FREEZING, FREEZING_LIMITS, FREEZING_FLOW, SPEEDS, DRIVEN, DECAYS, *LOSS)
+TABLES = (GROWTH, ONSETS, FREEZING, FREEZING_LIMITS, FREEZING_FLOW, SPEEDS, DEBYE, SPECTRUM, DRIVEN, DECAYS, *LOSS)

@@ -14,6 +14,7 @@ from particles.weights import WEIGHTS, Lucy, WendlandC2
 from studies.build.setting import DISORDERS
 from studies.kit.case import Case
 from studies.operators import scheme
+from studies.operators.entropy import WAYS, Entropy
 from studies.operators.equations import Arithmetic, EquationErrors, of_dilation, of_rotation, of_volumes
 from studies.operators.transport import BETWEEN, Decay, Drive, ShearFlow, of_edges
 from studies.operators.weights import Continuum, ExponentialWave, LatticeSums, WeightSymbols, of_weights
@@ -47,7 +48,7 @@ MANY = tuple(range(1, 13))      # sets of points between rows of points: their e
 def cases(size: str) -> list[Case]:
     """`quick` has fewer sizes, seeds and kinds of points."""
     quick = size == "quick"
-    parts = (weights, equations, points, waves, shear, layers)
+    parts = (weights, equations, points, waves, shear, layers, entropy)
     return [case for part in parts for case in part(quick)]
 
 
@@ -120,3 +121,14 @@ def layers(quick: bool) -> Iterator[Case]:
     sizes = (8,) if quick else (8, 12, 16)
     for h, rows, ra, share in product((2.0, 3.0), sizes, (200.0, 1500.0), SHARES):
         yield scheme.LayerGrowth(h=h, rows=rows, ra=ra, share=share)
+
+
+def entropy(quick: bool) -> Iterator[Case]:
+    """Smooth, random and worst states; the range of 2.5 a fits into six cells."""
+    sets = ((renormalised, "lattice"), (delaunay, "jittered-0.3"), (exact, "jittered-0.3"))
+    states = (("smooth", (16,) if quick else (16, 32, 64), (1,)), ("random", (10,), (1,)),
+              ("sought", (6,), SEEDS[:1 if quick else 3]))
+    for way, (make, kind), (state, sizes, seeds) in product(WAYS, sets, states):
+        for n, seed in product(sizes, seeds):
+            yield Entropy(way=way, make=make, disorder=DISORDERS[kind], counts=(n, n), h=2.5, state=state,
+                          seed=seed)

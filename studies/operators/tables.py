@@ -72,9 +72,16 @@ SHEAR_MEANS = Table.of("shear_means", "flow points rows time", "seeds rms rms_er
 SHEAR_ORDERS = Table.of("shear_orders", "flow points time norm", "order order_err", means=TIME,
                         about="How these errors fall with the rows, all runs in one fit.")
 
+ENTROPY = Table.of("entropy", "transport maker points d state cells seed", "total least negative",
+                   about="Entropy that stress and heat current produce in one state, or in 200 random ones.",
+                   means={"state": ("smooth; random; sought: where a descent ends", ""),
+                          "total": ("over that of the continuum, of the smooth state", ""),
+                          "least": ("production over the sum of its sizes on edges, least of the states", ""),
+                          "negative": ("share of the edges that destroy entropy", "")})
+
 ALL = (CONTINUUM, SYMBOLS, LATTICE, EXPONENTIAL, NUMBERS, EQUATIONS, ORDERS, FRICTION, ONE_KERNEL, GROWTH,
        GROWTH_MEANS, EULER, NESTED_GROWTH, WAVES, COEFFICIENTS, TRANSPORT_ORDERS, SHEAR, SHEAR_MEANS,
-       SHEAR_ORDERS)
+       SHEAR_ORDERS, ENTROPY)
 
 # --- what follows from them ---------------------------------------------------------------------------------
 

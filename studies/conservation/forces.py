@@ -1,0 +1,142 @@
+"""Forces at one moment: their torques, and those of Eq. 50 beside smooth particles    [RR98 Eqs 34-51]
+
+An edge takes the momentum f from i to j, and with it the angular momentum (x_j - x_i) x f from nowhere. That
+is zero for each edge if f points along it. It is zero in the sum over all edges for a stress that both ends
+have half of, f = S.(s_i + s_j)/2 with s symmetric, where edges are exact on linear fields; and for friction k
+(v_j - v_i) where the Laplacian of x is zero.
+"""
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from continuum.fluid import ConstEta, IdealGas
+from particles.integral.dih import Dih, NestedFluxes, carried, densities, take
+from particles.integral.edges import Edges
+from particles.integral.points import Points, jittered
+from particles.integral.rr98_moving_plain import ConstantMass, Powers
+from particles.run import Plan, run
+from particles.smooth.spam import Spam
+from particles.weights import Lucy
+from studies.build.setting import DISORDERS
+from studies.build.spam import fluid as smooth_particles
+from studies.conservation.motions import ALONG, DT, STILL, acceleration, march, moving
+from studies.conservation.sums import SIZE, random_fields
+from studies.kit.case import Case, Outcome, Report
+
+LUCY, VISCOUS = Lucy.of(h=3.0), ConstEta(0.1, 0.1)
+RADIUS, WIDE = 6.0, (40, 40)        # of a disc with a free rim, in a box that its pairs do not cross
+
+
+def relative(x: np.ndarray, f: np.ndarray) -> float:
+    """|sum x cross f| over sum |x| |f|."""
+    torque = (x[:, 0]*f[:, 1] - x[:, 1]*f[:, 0]).sum()
+    return float(abs(torque)/(np.hypot(*x.T)*np.hypot(*f.T)).sum())
+
+
+def exchanges(edges: Edges, fields: Any) -> Iterator[tuple[str, np.ndarray]]:
+    """Name and momentum (E, 2) that leaves the first point of each edge, of (rho, v, T)."""
+    dih = Dih(edges=edges, eos=IdealGas(), law=VISCOUS, transport=ALONG)
+    flow = dih.flow(dih.state(*fields))
+    a, b, half = take(flow, edges.i), take(flow, edges.j), edges.S/2
+    crossed = half*(a.rho*b.T + b.rho*a.T)[:, None]
+    stresses = sum(q.rho[:, None]*q.v*(half*q.v).sum(axis=1)[:, None] for q in (a, b))
+    yield "pressure, P_i + P_j", half*(a.P + b.P)[:, None]
+    yield "pressure, Eq. 13", crossed
+    yield "convection, Eq. 35", carried(dih.eos, edges.S, a, b).momentum - crossed
+    yield "convection, half of each end", stresses
+    yield "friction, Eq. 51", dih.transport.fluxes(dih, flow).momentum
+    yield "friction, Eq. 51, B = 0", dih.transport.fluxes(replace(dih, zeta=2*VISCOUS.eta), flow).momentum
+    yield "friction, Eq. 37", NestedFluxes().fluxes(dih, flow).momentum
+
+
+@dataclass(frozen=True, kw_only=True)
+class EdgeTorque(Case):
+    """Of each exchange over edges on points that stay, random fields in a periodic box."""
+    make: Callable[[Points, Any], Edges]
+    points: str
+    seed: int = 1
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        kind = DISORDERS[self.points]
+        points = kind.make((16, 16), kind.size, self.seed)
+        edges, fields = self.make(points, LUCY), random_fields(points, SIZE, self.seed)
+        key = {"maker": self.make.__name__, "points": self.points, "seed": self.seed}
+        return Outcome({"torques": [key | {"exchange": name, "torque": relative(edges.apart, f)}
+                                    for name, f in exchanges(edges, fields)]})
+
+
+@dataclass(frozen=True, kw_only=True)
+class MotionTorque(Case):
+    """Of all forces on a disc of jittered points, for a motion of these, or for smooth particles (no kind).
+
+    law : with friction, nested.
+    """
+    motion: str
+    kind: Any
+    law: ConstEta
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        points = jittered(WIDE, 0.3, 1)
+        x = points.x[np.hypot(*points.x.T) < RADIUS]
+        points = Points(x=x, box=points.box, V=np.ones(len(x)))
+        force = self.pushed(points) if self.kind else rates_of(*smooth(points, self.law))[2:4].T
+        return Outcome({"motion_torques": [
+            {"motion": self.motion, "viscosity": self.law.eta, "torque": relative(x, force)}]})
+
+    def pushed(self, points: Points) -> np.ndarray:
+        """d(momentum)/dt of each point, (n, 2)."""
+        method = moving(self.kind, points, LUCY, self.law, transport=NestedFluxes())
+        fields = densities(method.eos, *random_fields(points, SIZE, 1))
+        state = np.concatenate([points.x.T, method.owned(points.V)*fields, points.V[None]])
+        rates = np.empty_like(state)
+        method.rates(state, rates)
+        up, down = (q[3:5]*q[-1]/method.owned(q[-1]) for q in (state + rates, state - rates))
+        return (up - down).T/2              # exact: products of two
+
+
+def smooth(points: Points, law: Any = STILL) -> tuple[Spam, np.ndarray]:
+    """Smooth particles of unit mass and random velocities and temperatures."""
+    method, (_, v, T) = smooth_particles(LUCY, tuple(points.box), law=law), random_fields(points, SIZE, 1)
+    return method, method.state(points.x, 1.0, v, T)
+
+
+def rates_of(method: Spam, state: np.ndarray) -> np.ndarray:
+    """d(state)/dt of smooth particles, in their order."""
+    sums, ordered, ids = method.look(state)
+    rates = np.empty_like(state)
+    sums.rates(ordered, rates)
+    return rates[:, np.argsort(ids)]
+
+
+@dataclass(frozen=True, kw_only=True)
+class BesideSpam(Case):
+    """Eq. 50 and smooth particles, from one state without friction: random fields, jittered points, m = 1.
+
+    Volumes begin as 1/rho of the summed density, and follow the flow. With a = 1, b = -1 a pair then has
+    V_i V_j (P_i rho_j/rho_i + P_j rho_i/rho_j) = P_i/rho_i^2 + P_j/rho_j^2.
+    """
+    a: float
+    b: float
+    time: float = 5.0
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        points, steps = jittered((16, 16), 0.2, 1), round(self.time/DT)
+        spam, start = smooth(points)
+        V = spam.fields(start).V
+        method = moving(ConstantMass, points, LUCY, scale=1.0, bracket=Powers(self.a, self.b))
+        first = np.concatenate([points.x.T, V*densities(method.eos, 1/V, start[2:4].T, start[4]), V[None]])
+        pushed = acceleration(method, first), rates_of(spam, start)[2:4]
+        last, ended = march(method, first, DT, steps, np.copy)[-1], run(spam, start, Plan(dt=DT, steps=steps))
+        other = ended.state[:, np.argsort(ended.ids)]
+        velocities = method.velocity(last), other[2:4]
+        return Outcome({"beside": [{
+            "a": self.a, "b": self.b, "start": apart(*pushed), "end": apart(*velocities),
+            "volumes": apart(last[-1], spam.fields(other).V)}]})
+
+
+def apart(one: np.ndarray, other: np.ndarray) -> float:
+    """Rms of a difference over that of the second."""
+    return float(np.linalg.norm(one - other)/np.linalg.norm(other))
