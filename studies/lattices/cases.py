@@ -209,4 +209,5 @@ DECAYS = Table.of(
            "predicted": ("the sum of the three beside it", ""), "symbol": ("as in driven", ""),
            "deviator": ("stress of the pressure sum over that of friction, mean over time", ""),
            "kinetic": ("the same of the noise", "")})
-TABLES = (GROWTH, ONSETS, FREEZING, FREEZING_LIMITS, FREEZING_FLOW, SPEEDS, DEBYE, SPECTRUM, DRIVEN, DECAYS, *LOSS)
+TABLES = (GROWTH, ONSETS, FREEZING, FREEZING_LIMITS, FREEZING_FLOW, SPEEDS, DEBYE, SPECTRUM, DRIVEN, DECAYS,
+          *LOSS)
