@@ -70,7 +70,7 @@ judge: .venv/ready  ## a page on how good a method of your own is: make judge ME
 	$(run) -m studies.judge $(METHOD) $(ARGS)
 
 words: .venv/ready  ## every name of a method, scene, quantity, explained; TEXT=wendland shows some
-	$(run) -m studies.build.words $(TEXT)
+	$(run) -m studies.build $(TEXT)
 
 hours: .venv/ready  ## what all studies have still to do, in minutes of CPU
 	$(run) -m studies.kit.timing $(studies)

@@ -19,10 +19,10 @@ from particles.weights import (
 
 weights = pytest.mark.parametrize("kind", WEIGHTS.values(), ids=WEIGHTS)
 SPHERE = {1: 2.0, 2: 2*np.pi, 3: 4*np.pi}
-# Gauss-Legendre, 20 points on each side of the B-spline's knot: exact for the polynomials, up to degree 14
-# here
-NODES, GAUSS = np.polynomial.legendre.leggauss(20)
-Q, DQ = np.concatenate([(NODES + 1)/4, (NODES + 3)/4]), np.concatenate([GAUSS, GAUSS])/4
+# Gauss-Legendre, 8 points in each of 60 parts: exact for polynomials up to degree 15 between knots at halves,
+# thirds, quarters, fifths and sixths of the range
+NODES, GAUSS = np.polynomial.legendre.leggauss(8)
+Q, DQ = ((np.arange(60)[:, None] + (NODES + 1)/2)/60).ravel(), np.tile(GAUSS/120, 60)
 
 
 def w(weight, r):

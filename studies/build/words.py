@@ -4,7 +4,6 @@ KHP95 is Kum, Hoover & Posch 1995 (smooth-particle applied mechanics, SPAM); RR9
 (discretized integral hydrodynamics, DIH: fields on points that exchange over edges).
 """
 import csv
-import sys
 from pathlib import Path
 from typing import NamedTuple
 
@@ -48,7 +47,3 @@ def explained(text: str = "") -> str:
         lines += [f"{title}:", *(f"  {word.name:34s}{word.about}{f'  [{word.source}]'*bool(word.source)}"
                                  for word in rows)]*bool(rows)
     return "\n".join(lines) or f"no name and no sentence has {text!r}: leave it out to see all"
-
-
-if __name__ == "__main__":
-    print(explained(" ".join(sys.argv[1:])))

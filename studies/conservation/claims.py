@@ -77,13 +77,13 @@ FIXED = (
 )
 MOVING = (
     Claim(id="rr98-eq39-pattern", source="RR98 Secs I, III", printed="fully consistent; a bold assumption",
-          headline=True, evidence="conservation/speeds.png",
+          headline=True,
           expect=1, within=0.02, value=one("patterns", "speed", motion="literal", wavelength=32),
           statement="points that move with v under Eqs 34-36 show the fluid: speed of a density pattern "
                     "over that of the stream that carries it, wavelength 32 a",
           because=f"2 %: what a weight of h = 3 a does to such a wave; {HALVES}"),
     Claim(id="rr98-eq39-sound", source="RR98 Eq. 39", printed="fully consistent", expect=1, within=0.02,
-          headline=True, evidence="conservation/speeds.png",
+          headline=True,
           value=one("long_sound", "speed", motion="literal", weight="WendlandC2"),
           statement="points that move with v under Eqs 34-36: speed of long sound over c, Wendland C2, h = "
                     "4 a",
@@ -109,7 +109,7 @@ MOVING = (
           because="RK4 at omega dt = 0.3: (omega dt)^5 times the amplitudes squared, some 100 steps long; "
                   f"{ALONE}"),
     Claim(id="rr98-eq46-sound", source="RR98 Eqs 46-48", printed="fully consistent", expect=1, within=0.02,
-          headline=True, evidence="conservation/speeds.png",
+          headline=True,
           value=one("long_sound", "speed", motion="convective", weight="WendlandC2"),
           statement="Eqs 39, 46-48 on volumes dV that stay: speed of long sound over c, Wendland C2, h = 4 a",
           because=f"2 %: extrapolated from wavelengths of 24 and 32 a; {EXTRAPOLATED}"),

@@ -4,39 +4,12 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from studies.kit.figure import Drawing, Drawings, bars, figure, logarithmic, look, numbered, plain_ticks
+from studies.kit.figure import Drawing, Drawings, bars, figure, logarithmic, look, numbered
 
-#: RR98's motions, by their names, with their equations
-MOTIONS = {"literal": "moving-literal (39-41)", "convective": "moving-convective (46-48)",
-           "carried": "moving-carried (46-48)", "constant-mass": "moving-constant-mass (49)"}
 BODIES = {"surface": "points on the surface", "frozen": "frozen lattice points",
           "frozen-grown": "frozen, half a spacing more"}
 
 
-def speeds(patterns: pd.DataFrame, sound: pd.DataFrame) -> Figure:
-    """How fast a density pattern goes on a stream, and sound."""
-    page, (left, right) = figure(1, 2, width=4.4, height=4.0)
-    draw_speeds(left, patterns)
-    draw_speeds(right, sound[sound["weight"] == "Lucy"])
-    left.set(ylabel="speed of the pattern over the stream's", title="density pattern on a uniform stream")
-    right.set(ylabel="speed of sound over $c$", title="standing sound")
-    right.axhline(np.sqrt(2), color="grey", linewidth=0.6)
-    right.annotate(r"$\sqrt{2}$", (8, np.sqrt(2)), textcoords="offset points", xytext=(0, -14))
-    page.legend(*right.get_legend_handles_labels(), loc="outside lower center", ncols=4)
-    page.suptitle("Of RR98's motions two carry patterns and sound near the right speed\n"
-                  "Lucy's weight, $h = 3a$; dotted: predicted from sums over the lattice")
-    return page
-
-
-def draw_speeds(axes: Axes, rows: pd.DataFrame) -> None:
-    """Of each motion over the wavelength; some lie on each other."""
-    for number, (name, words) in enumerate(MOTIONS.items()):
-        group = rows[rows["motion"] == name].sort_values("wavelength")
-        style = {"markerfacecolor": "none", "markersize": 10 - 2*number}
-        bars(axes, group, "wavelength", "speed", number=number, label=words, **style)
-        axes.plot(group["wavelength"], group["predicted"], color="grey", linestyle=":", marker="")
-    axes.set(xlabel=r"wavelength $\lambda/a$", xscale="log")
-    plain_ticks(axes, sorted(set(rows["wavelength"])))
 
 
 def drags(drag: pd.DataFrame) -> Figure:
@@ -68,6 +41,4 @@ def draw_drags(axes: Axes, rows: pd.DataFrame) -> None:
              linestyle=look(number)["linestyle"])
 
 
-FIGURES = Drawings(
-    Drawing("speeds", ("patterns", "moving_sound"), speeds),
-    Drawing("drag", ("drag",), drags))
+FIGURES = Drawings(Drawing("drag", ("drag",), drags))

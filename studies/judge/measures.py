@@ -166,7 +166,8 @@ def convergence(taken: Taken) -> Verdict:
         return Verdict(told, None)
     if order(taken) < LEAST:
         fewer, first = taken[0]
-        return Verdict(f"does not converge: {told}, {percent(first['error'])} with {fewer}", False)
+        return Verdict(f"has no order on these rows, its errors fall too slowly: {told}, "
+                       f"{percent(first['error'])} with {fewer}", False)
     return Verdict(f"converges with order {order(taken):.1f}: {told}", True)
 
 
@@ -197,7 +198,7 @@ def right(taken: Taken) -> Verdict:
         return Verdict(f"has no order, as its errors change sign: {told}, {most} off at most",
                        abs(errors[-1]) < abs(errors[0]))
     if order(taken) < LEAST:
-        return Verdict(f"does not converge: {told}", False)
+        return Verdict(f"has no order on these rows, its errors fall too slowly: {told}", False)
     return Verdict(f"converges with order {order(taken):.1f}: {told}", True)
 
 

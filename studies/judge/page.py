@@ -50,8 +50,12 @@ def row(rung: Rung, verdict: Verdict, takes: Sequence[Take]) -> dict:
 def in_words(numbers: Numbers) -> str:
     """Names and numbers, errors in units of the last digit."""
     errors = {name: numbers.get(f"{name}_err", 0.0) for name in numbers if not name.endswith("_err")}
-    return ", ".join(f"{name} {Measured(numbers[name], err) if err else f'{numbers[name]:.3g}'}"
-                     for name, err in errors.items())
+    return ", ".join(f"{name} {in_digits(numbers[name], err)}" for name, err in errors.items())
+
+
+def in_digits(value: float, err: float) -> str:
+    """With its error, or six digits where that says nothing of the rows: it is of time alone."""
+    return str(Measured(value, err)) if err > 1e-5*abs(value) else f"{value:.6g}" if err else f"{value:.3g}"
 
 
 def table(takes: Sequence[Take]) -> pd.DataFrame:

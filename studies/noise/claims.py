@@ -105,12 +105,12 @@ CLAIMS = (
                     "Ra_c by eigenvalues: power of 1 - Ra/Ra_c in <w w> less equilibrium, 0.0005 to 0.05"),
     Claim(id="rr98-fluct-eq40-euler", source="RR98 Eq. 40", printed=INCLUDES, expect=1, within=0.01,
           because="1 %",
-          headline=True, evidence="noise/steps.png",
+          headline=True,
           value=stepped("forward-euler", "velocity", "isothermal"),
           statement="forward Euler keeps the temperature: kinetic over given, c^2 dt/nu = 0.1, isothermal "
                     "gas, long waves"),
     Claim(id="rr98-fluct-eq41-better", source="RR98 Eq. 41", printed="more accurate", at_most=1,
-          headline=True, evidence="noise/steps.png",
+          headline=True,
           value=largest_per(("wavenumber", "dt"), error_of("eq40-eq41")/error_of("eq40-eq40")),
           because="more accurate is an error below that of Eq. 40 for both",
           statement="moving positions with Eq. 41 is more accurate than with Eq. 40: error of the kinetic "

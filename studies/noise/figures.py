@@ -2,11 +2,9 @@
 import pandas as pd
 from matplotlib.figure import Figure
 
-from studies.kit.figure import Drawing, Drawings, below, figure, look
+from studies.kit.figure import Drawing, Drawings, figure, look
 from studies.kit.table import groups
 
-#: fluid of `steps` -> title
-FLUIDS = {"gas": "gas", "isothermal": "isothermal gas", "moving": "isothermal, moving points"}
 READINGS: dict[str, dict[str, str]] = {"doubled": {}, "single": {"markerfacecolor": "white"}}
 
 
@@ -36,23 +34,5 @@ def printed(rows: pd.DataFrame) -> Figure:
     return page
 
 
-def steps(rows: pd.DataFrame) -> Figure:
-    """Largest error of a variance over the step, for each integrator, waves of 63 spacings; eq40-eq41: points
-    move with new velocities, as printed, eq40-eq40: with old ones.
-    """
-    fluids = rows[rows["wavenumber"] == rows["wavenumber"].median()].groupby("fluid")
-    page, [panels] = figure(1, len(fluids), width=2.5, height=3.8, sharey=True, squeeze=False)
-    integrators = sorted(set(rows["integrator"]))
-    for axes, (fluid, some) in zip(panels, fluids, strict=True):
-        for name, group in some.groupby("integrator"):
-            axes.plot(group["dt"], group["error"], **look(integrators.index(name)), label=name)
-        axes.set(xscale="log", yscale="log", xlabel=r"$c^2\Delta t/\nu$", title=FLUIDS[str(fluid)])
-        below(axes)
-    panels[0].set_ylabel("largest error of a variance")
-    page.suptitle("Crank-Nicolson keeps variances to round-off, three stages nearly, Euler does not")
-    return page
 
-
-FIGURES = Drawings(
-    Drawing("printed", ("printed",), printed),
-    Drawing("steps", ("steps",), steps))
+FIGURES = Drawings(Drawing("printed", ("printed",), printed))

@@ -11,8 +11,6 @@ from studies.kit.figure import Drawing, Drawings, errorbar, figure, logarithmic,
 KINDS = ("lattice", "jittered-0.1", "jittered-0.3", "random", "relaxed")
 MAKERS = ("printed", "plain", "renormalised", "closed", "exact", "delaunay")
 FLOOR = 1e-16       # growth rates of round-off are drawn there
-SHARES = {"gradient": "gradient / $k$", "nested": "nested Laplacian / $k^2$",
-          "pairwise": "pairwise Laplacian / $k^2$"}
 #: points between plates -> title
 WALLED = {"lattice": "lattice, images behind the plates", "jittered-0.2": "shifted by up to $0.2a$, images",
           "jittered-0.2, plates": "shifted by up to $0.2a$, rows on the plates"}
@@ -25,23 +23,6 @@ def legend(page: Figure, axes: Axes, columns: int, **more: Any) -> None:
     """Of one panel, for all."""
     page.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=columns, **more)
 
-
-def symbols(rows: pd.DataFrame) -> Figure:
-    """Share of the gradient and of the Laplacian that weights leave of a wave, 2D lattice."""
-    page, panels = figure(1, 3, width=3.6, height=3.8, sharey=True)
-    for number, (kind, group) in enumerate(rows.groupby("weight")):
-        x, style = group["k"].to_numpy()/np.pi, {**look(number), "marker": ""}
-        for axes, column in zip(panels, SHARES, strict=True):
-            axes.plot(x, group[column], **style, label=f"{kind}, {group['r0'].iloc[0]:g} $a$")
-        panels[0].plot(x, group["smoothed"], **{**style, "linewidth": 2.5, "alpha": 0.25})
-    for axes, title in zip(panels, SHARES.values(), strict=True):
-        axes.set(title=title, xlabel=r"$k a/\pi$", ylim=(-0.1, 1.05))
-    panels[0].set_ylabel("share left of a wave of wave number $k$")
-    legend(page, panels[0], 4, title_fontsize=8,
-           title=r"weights with their ranges; broad and pale: $\hat f(k)$ of the same weight, "
-                 "without a lattice")
-    page.suptitle("What weights leave of a wave along an axis; nested transport is blind to the shortest")
-    return page
 
 
 def growth(means: pd.DataFrame) -> Figure:
@@ -87,26 +68,4 @@ def shear(rows: pd.DataFrame) -> Figure:
     return page
 
 
-def nested_growth(frame: pd.DataFrame) -> Figure:
-    """Nested viscosity and conduction: does the motionless layer stay at rest?"""
-    groups = frame.groupby(["h", "ra"])
-    shares = sorted(set(frame["share"]))
-    page, (panels,) = figure(1, len(groups), width=3.6, height=4.2, sharey=True, squeeze=False)
-    for axes, ((h, ra), group) in zip(panels, groups, strict=True):
-        for number, (rows, line) in enumerate(group.groupby("rows")):
-            axes.plot(line["share"].map(shares.index), line["growth"], label=f"{rows} rows", **look(number))
-        axes.axhline(0, color="black", lw=0.8, linestyle="-", marker="")
-        axes.set_yscale("symlog", linthresh=1e-5)
-        axes.set_xticks(range(len(shares)), labels=[f"{share:g}" for share in shares], rotation=60)
-        axes.set(title=f"range $h = {h:g}a$, Ra = {ra:g}", xlabel="share of transport along edges")
-        axes.legend(fontsize=7)
-    panels[0].set_ylabel("largest growth rate  [$c/a$]")
-    panels[0].set_ylim(-2e-6, 2*frame["growth"].max())
-    page.suptitle("With a range of $2a$ some transport along edges keeps the layer at rest, not with $3a$\n"
-                  "$a$: spacing of the points, $c$: speed of sound; 0: nothing grows")
-    return page
-
-
-FIGURES = Drawings(Drawing("symbols", ("symbols",), symbols),
-                   Drawing("growth", ("growth_means",), growth), Drawing("shear", ("shear_means",), shear),
-                   Drawing("nested_growth", ("nested_growth",), nested_growth))
+FIGURES = Drawings(Drawing("growth", ("growth_means",), growth), Drawing("shear", ("shear_means",), shear))

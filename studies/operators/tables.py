@@ -15,9 +15,6 @@ from studies.kit.table import Row, Rows, Table, Tables
 CONTINUUM = Table.of("continuum", "weight d quantity", "value value_err predicted",
                      about="An integral of a weight of width r0 = 1 before it is discretised.",
                      means={"value": ("the integral; its error: the quadrature's or of halving k", "")})
-SYMBOLS = Table.of("symbols", "weight d r0 k", "smoothed gradient nested pairwise",
-                   about="What operators on the square lattice make of a wave along an axis.",
-                   means={"k": ("wave number", "1/a"), "gradient": ("gradient of a plane wave over k", "")})
 LATTICE = Table.of("lattice", "how weight d r0 n", "value predicted",
                    about="A discrete moment of a weight: sum of w r^n/r0^(n-1) over a lattice.",
                    means={"n": ("power of r", ""), "value": ("the sum", "")})
@@ -79,7 +76,7 @@ ENTROPY = Table.of("entropy", "transport maker points d state cells seed", "tota
                           "least": ("production over the sum of its sizes on edges, least of the states", ""),
                           "negative": ("share of the edges that destroy entropy", "")})
 
-ALL = (CONTINUUM, SYMBOLS, LATTICE, EXPONENTIAL, NUMBERS, EQUATIONS, ORDERS, FRICTION, ONE_KERNEL, GROWTH,
+ALL = (CONTINUUM, LATTICE, EXPONENTIAL, NUMBERS, EQUATIONS, ORDERS, FRICTION, ONE_KERNEL, GROWTH,
        GROWTH_MEANS, EULER, NESTED_GROWTH, WAVES, COEFFICIENTS, TRANSPORT_ORDERS, SHEAR, SHEAR_MEANS,
        SHEAR_ORDERS, ENTROPY)
 

@@ -217,27 +217,6 @@ class LatticeSums(Case):
 
 
 @dataclass(frozen=True, kw_only=True)
-class WeightSymbols(Case):
-    """Gradient and Laplacians of waves along an axis of the square lattice; w has the right first moment."""
-    kind: Any
-    r0: float
-    count: int = 24
-
-    def run(self, report: Report, folder: Path) -> Outcome:
-        weight = weight_of(self.kind, self.r0, 2)
-        at = around(span(weight), 2)
-        w = W(weight, at.r)
-        w *= 2/first_moment(w, at)
-        key = {"weight": self.kind.__name__, "d": 2, "r0": self.r0}
-        rows = []
-        for k in np.pi*np.arange(1, self.count + 1)/self.count:
-            gradient = gradient_symbol(w, at, k)
-            rows.append(key | {"k": k, "smoothed": smoothed(weight, 2, k).value, "gradient": gradient,
-                               "nested": gradient**2, "pairwise": spread_symbol(w, at, k)})
-        return Outcome({"symbols": rows})
-
-
-@dataclass(frozen=True, kw_only=True)
 class ExponentialWave(Case):
     """Error of the gradient of a plane wave, exponential weight, square lattice    [RR98 Eq. 31]"""
     r0: float

@@ -157,7 +157,6 @@ ALONG = (
 )
 LAYER = (
     Claim(id="own-eq37-layer-stable", source="RR98 Eqs 37, 38", at_most=STILL, headline=True,
-          evidence="operators/nested_growth.png",
           value=largest("nested_growth", "growth", err="1e-4*abs(growth)", share=0.0),
           because="rates of what stays are 1e-15, of what grows 1e-5 and more; differences over 1e-4 to 1e-6 "
                   "give the same four figures",
