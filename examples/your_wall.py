@@ -12,7 +12,7 @@ class Halved(NamedTuple):
     """Images with half of the velocity against the particle's, at the wall's temperature."""
 
 
-velocity_and_temperature.of(Halved)(lambda rule, wall_T, vx, vy, T: (-vx/2, -vy/2, wall_T))
+velocity_and_temperature.of(Halved)(lambda rule, wall_T, along, across, T: (-along/2, -across/2, wall_T))
 
 mine = PRINTED._replace(name="halved", walls=lambda scene: walls(scene, Halved()))
 done = compare("couette", ["grid", "spam", "spam-walls-odd", mine], rows=sized((16, 32), (8,)))

@@ -136,7 +136,11 @@ def zero(term):
 
 
 def pair_term(kind: type, columns: int) -> Callable:
-    """Makes a formula the `rate` of a kind of term, whose sums have so many columns."""
+    """Makes a formula the `rate` of a kind of term, whose sums have so many columns.
+
+    rate(term, a, b, ab) is what `a` gains. Points over edges have rho, vx, vy, T, P, eps, eta, k, and seen by
+    friction and heat ux, uy, Td; ab is an `Edge`. Columns are mass, momentum (2), energy.
+    """
     empty = (0.0,)*columns
     zero.of(kind)(lambda term: empty)
     return rate.of(kind)

@@ -1,4 +1,6 @@
 """What walls make of particles: images, their motion, statics, reflections, fixed rows."""
+from typing import NamedTuple
+
 import numpy as np
 import plain
 import pytest
@@ -8,9 +10,19 @@ from continuum.fluid import ConstEta, IdealGas
 from particles.run import Plan, run
 from particles.smooth.spam import LessStatic, Spam
 from particles.smooth.sums import Direct, Nested
-from particles.walls import confine
+from particles.walls import confine, image_motion
 from particles.walls.fixed import fixed_plates
-from particles.walls.mirror import AtWall, Copied, Odd, Own, plates, sides
+from particles.walls.mirror import (
+    AtWall,
+    Copied,
+    Mirror,
+    Odd,
+    OneSide,
+    Own,
+    plates,
+    sides,
+    velocity_and_temperature,
+)
 from particles.walls.periodic import periodic
 from particles.weights import Lucy
 
@@ -138,3 +150,18 @@ def test_fixed_rows_need_a_positive_temperature():
     with pytest.raises(ValueError,
                        match=r"last of 6 fixed rows would have T = -0\.05.* take a higher box, fewer rows"):
         fixed_plates(10.0, 1.5, 0.5)
+
+
+class Slippery(NamedTuple):
+    """A rule that tells along from across."""
+
+
+velocity_and_temperature.of(Slippery)(lambda rule, wall_T, along, across, T: (0.2*along, -across, T))
+
+
+@pytest.mark.parametrize("axis", [0, 1])
+def test_rules_see_velocities_along_and_across_whatever_the_side(axis):
+    plate = Mirror(axis, 0.0, 1.0, 1.0, 0.0, Slippery(), Copied())
+    for wall in (plate, OneSide(plate)):
+        moved = image_motion(wall, 0.5, 0.5, 0.3, 0.7, 1.0)
+        assert moved == pytest.approx((0.06, -0.7, 1.0) if axis == 1 else (-0.3, 0.14, 1.0))

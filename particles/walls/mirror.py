@@ -48,8 +48,9 @@ def sides(width: float, T_mean: float, slope: float, rule=AtWall(), pressure=Cop
 
 
 @generic
-def velocity_and_temperature(rule, wall_T, vx, vy, T):
-    """(vx, vy, T) of the image by one of the rules."""
+def velocity_and_temperature(rule, wall_T, along, across, T):
+    """Of the image, by one of the rules: velocity along the plate and across it, seen from it; temperature.
+    """
 
 
 @generic
@@ -57,8 +58,8 @@ def choose(pressure, own, copied):
     """One of the two pressures."""
 
 
-velocity_and_temperature.of(AtWall)(lambda rule, wall_T, vx, vy, T: (0.0, 0.0, wall_T))
-velocity_and_temperature.of(Odd)(lambda rule, wall_T, vx, vy, T: (-vx, -vy, 2*wall_T - T))
+velocity_and_temperature.of(AtWall)(lambda rule, wall_T, along, across, T: (0.0, 0.0, wall_T))
+velocity_and_temperature.of(Odd)(lambda rule, wall_T, along, across, T: (-along, -across, 2*wall_T - T))
 choose.of(Copied)(lambda pressure, own, copied: copied)
 choose.of(Own)(lambda pressure, own, copied: own)
 
@@ -76,8 +77,10 @@ def _(wall, x, y):
 
 @image_motion.of(Mirror)
 def _(wall, x, y, vx, vy, T):
-    along = y if wall.axis == 0 else x
-    return velocity_and_temperature(wall.rule, wall.T + wall.slope*along, vx, vy, T)
+    if wall.axis == 1:
+        return velocity_and_temperature(wall.rule, wall.T + wall.slope*x, vx, vy, T)
+    v, u, T = velocity_and_temperature(wall.rule, wall.T + wall.slope*y, vy, vx, T)
+    return u, v, T
 
 
 image_pressure.of(Mirror)(lambda wall, own, copied: choose(wall.pressure, own, copied))
