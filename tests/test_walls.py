@@ -162,6 +162,6 @@ velocity_and_temperature.of(Slippery)(lambda rule, wall_T, along, across, T: (0.
 @pytest.mark.parametrize("axis", [0, 1])
 def test_rules_see_velocities_along_and_across_whatever_the_side(axis):
     plate = Mirror(axis, 0.0, 1.0, 1.0, 0.0, Slippery(), Copied())
-    for wall in (plate, OneSide(plate)):
+    for wall in (plate, OneSide(plate, 0.0)):
         moved = image_motion(wall, 0.5, 0.5, 0.3, 0.7, 1.0)
         assert moved == pytest.approx((0.06, -0.7, 1.0) if axis == 1 else (-0.3, 0.14, 1.0))
