@@ -171,6 +171,11 @@ CLAIMS = (
           statement="for P ~ rho^2 trajectories run back when velocities turn: order in dt of the distance "
                     "from the start", value=calculated("order of the way back"),
           because="what is left is the integrator's, of fourth order"),
+    Claim(id="khp95-hard-reversal", source="KHP95 Sec. III", printed="exact reversibility", expect=1,
+          within=0, value=calculated("part that comes back bit by bit"), because="exact is all of them",
+          headline=True,
+          statement="paths run back exactly when velocities turn: part of the coordinates that come back to "
+                    "the last bit, in whole numbers, after a time of 100"),
     Claim(id="khp95-conservation-momentum", source="KHP95 Sec. II", printed="exact", headline=True,
           statement="the sums conserve momentum exactly: sum of m dv/dt over the sum of moduli, periodic box",
           value=calculated("sum of forces over moduli"), at_most=1e-13,

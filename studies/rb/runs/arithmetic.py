@@ -191,6 +191,7 @@ def few_particles() -> Numbers:
     return {
         "accelerations against -grad of sum 2 w": few.not_molecular(),
         "drift of kinetic energy and sum of w": few.energy_drift(),
+        "part that comes back bit by bit": few.returned(),
         "order of the way back": few.order(few.return_errors, few.MOLECULES, few.STEPS[:3]),
         "sum of forces over moduli": momentum,
         "sum of energy rates over moduli": energy_left,
