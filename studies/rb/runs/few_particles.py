@@ -149,7 +149,7 @@ def whole(q: np.ndarray) -> np.ndarray:
 
 
 class WholeLeapfrog(Midpoint):
-    """Half a kick, a drift, half a kick in whole numbers: reversible to the last bit [Levesque & Verlet 1993].
+    """Half a kick, a drift, half a kick in whole numbers: reversible bit by bit [Levesque & Verlet 1993].
 
     Energies, of which nothing depends, stay.
     """
