@@ -64,7 +64,8 @@ class Nonlinear(Case):
         before = start@V
         drift = np.abs(state@V - before).max()/before[-1]
         ratios = np.array(powers[1:])/(edges.n - 1)/self.k      # the first batch forgets the start
-        rows = [{"share": self.share, "k": self.k, "drift": drift, "field": name, **with_errors(ratio=over_seeds(values))}
+        key = {"share": self.share, "k": self.k, "drift": drift}
+        rows = [{**key, "field": name, **with_errors(ratio=over_seeds(values))}
                 for name, values in zip(("rho", "v", "T"), ratios.T, strict=True)]
         return Outcome({"nonlinear": rows})
 
