@@ -23,6 +23,9 @@ Numbers = Sequence[float] | np.ndarray | pd.Series
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#882255")
 MARKERS = ("o", "s", "^", "D", "v", "P", "X", "*")
 LINES = ("-", "--", "-.", ":", (0, (5, 1)), (0, (3, 1, 1, 1)), (0, (1, 1)), (0, (8, 3)))
+#: how markers of the same kind are filled
+FILLS: tuple[dict[str, str], ...] = ({}, {"markerfacecolor": "white"}, *(
+    {"fillstyle": half, "markerfacecoloralt": "white"} for half in ("left", "bottom")))
 
 DIGIT = 6.4     # points that a digit of a tick takes
 GROWS = 1.15    # axes, at least, when the page is laid out
