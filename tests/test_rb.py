@@ -32,7 +32,7 @@ def test_a_box_that_no_lattice_fills_is_refused(wrong, words):
 
 def test_paper_holds_the_points_of_the_printed_figures():
     runs = [case for case in rb.cases("paper") if isinstance(case, SpamRun)]
-    points = {(round(r.scene.L), r.scene.ra, type(r.scene.eos).__name__, r.particles) for r in runs}
+    points = {(round(r.scene.L), r.scene.ra, type(r.scene.eos).__name__, r.points) for r in runs}
     assert {(50, 5000, "IdealGas", 5000), (50, 10000, "IdealGas", 5000), (50, 10000, "VanDerWaals", 5000),
             (40, 10000, "IdealGas", 1600), (16, 10000, "VanDerWaals", 512)} <= points
     seeds = {(r.scene, r.variant.name): set() for r in runs}
