@@ -28,7 +28,7 @@ export PYTHONDONTWRITEBYTECODE :=
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
 .DELETE_ON_ERROR:
-.PHONY: help env solve judge words studies hours report films test lint types notebooks executed lab bench worker locks clean $(studies:%=study-%) $(studies:%=figures-%) study- figures-
+.PHONY: help env solve judge words studies report films test lint types notebooks executed lab bench worker locks clean $(studies:%=study-%) $(studies:%=figures-%) study- figures-
 
 # a line for each name that % stands for
 help:  ## this list
@@ -56,7 +56,7 @@ study- figures-:
 env: .venv/ready  ## set up .venv and nothing else
 
 # every table and figure of the size; then what is made from tables: of size quick the page alone, in results/quick
-studies: hours $(studies:%=study-%) $(if $(filter quick,$(SIZE)),,films executed) report  ## all studies, notebooks, films, the page: hours
+studies: $(studies:%=study-%) $(if $(filter quick,$(SIZE)),,films executed) report  ## all studies, notebooks, films, the page: hours
 
 # of one solution: names of studies/build/words.py, several methods or rows in quotes
 SCENE  ?= rayleigh-benard
@@ -71,9 +71,6 @@ judge: .venv/ready  ## a page on how good a method of your own is: make judge ME
 
 words: .venv/ready  ## every name of a method, scene, quantity, explained; TEXT=wendland shows some
 	$(run) -m studies.build $(TEXT)
-
-hours: .venv/ready  ## what all studies have still to do, in minutes of CPU
-	$(run) -m studies.kit.timing $(studies)
 
 report: .venv/ready-films  ## results/equations.md, tables.md, index.html: one page of answers, pictures, verdicts, tables
 	$(if $(filter quick,$(SIZE)),,$(run) -m studies.report equations)

@@ -10,7 +10,6 @@ from studies.kit.claim import judge
 from studies.kit.sweep import RESULTS
 from studies.kit.table import Tables, read
 from studies.rb.claims import RB_CLAIMS
-from studies.rb.runs import arithmetic
 from studies.rb.runs import few_particles as few
 from studies.rb.runs.arithmetic import SUBJECTS, WithoutFlow
 
@@ -19,7 +18,7 @@ KNOWN = [  # derived on paper or summed in other code
     ("spurious-shear-square", 0.077, 1e-2), ("high-pressure-lattice", 1.37934/1.00297, 1e-3),
     ("vdw-stiffness", (3/7)/(10/25.5), 1e-9), ("dense-stiffness", 10/25.5, 1e-9),
     ("pressure-sound", 5/25.5, 1e-9), ("prandtl-isobaric", 2, 1e-6),
-    ("ra-fig10-expansivity", 9.5**2*2500/0.64/5.25, 1e-6), ("line-pair", 1717.417, 1e-5),
+    ("ra-fig10-expansivity", 9.5**2*2500/0.64/5.25, 1e-6),
     ("rk4-order-small", 3, 0.05), ("viscoelastic", 0.0071, 0.01),
 ]
 
@@ -42,15 +41,6 @@ def test_numbers_computed_anew_give_the_committed_verdicts(judged):
 def test_what_arithmetic_decides(judged, name, value, rel):
     found, = (row for whole, row in judged.items() if whole.partition("-")[2] == name)
     assert found["measured"] == pytest.approx(value, rel=rel)
-
-
-def test_rounding_of_the_printed_pair_is_its_error():
-    """Zeros of the lines through 0.003405 and 0.004805, 0.003395 and 0.004815: 1705 and 1730."""
-    value, err = arithmetic.zero_of_pair()
-    pairs = (0.003405, 0.004805), (0.003395, 0.004815)
-    ends = [((5000**-0.5*q - 10000**-0.5*k)/(q - k))**-2 for k, q in pairs]
-    assert ends == pytest.approx([1705.22, 1729.57], abs=0.01)
-    assert err == pytest.approx(max(abs(end - value) for end in ends), rel=1e-12)
 
 
 def test_midpoint_steps_are_of_second_order():

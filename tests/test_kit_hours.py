@@ -1,13 +1,10 @@
-"""What studies take is measured as they run, and told before they run."""
-import json
+"""What studies take is measured as they run."""
 from dataclasses import dataclass
-from pathlib import Path
 
 from studies.kit import timing
 from studies.kit.case import Case, Outcome
 from studies.kit.csvfile import read
 from studies.kit.dispatch import Bar
-from studies.kit.store import content_of, keep, kept
 from studies.kit.study import Study
 from studies.kit.table import Table
 
@@ -30,17 +27,6 @@ TOY = Study(name="toy", cases=lambda size: [Work(x=x) for x in SIZES[size]],
             tables=[Table("squares", key=["x"], columns=["x", "y"], about="a test")])
 
 
-def claim_seconds(out: Path, factor: float) -> None:
-    """Let each finished case have taken `factor` times its estimate."""
-    folder = out/"raw/toy"
-    for case in (case for case in TOY.cases("paper") if kept(case, folder)):
-        keep(case, json.dumps({**content_of(case, folder), "cpu_s": factor*case.cost}), folder)
-
-
-def left(size: str, out: Path) -> tuple[int, float]:
-    return timing.left(TOY.name, TOY.cases(size), size, out)
-
-
 def test_a_whole_run_leaves_its_cpu_seconds(tmp_path):
     TOY.run("paper", workers=1, out=tmp_path)
     [row] = read(tmp_path/"times.csv", timing.COLUMNS).to_dict("records")
@@ -48,15 +34,6 @@ def test_a_whole_run_leaves_its_cpu_seconds(tmp_path):
     assert 0 < row["cpu_s"] < 10
     TOY.run("quick", workers=1, out=tmp_path)
     assert list(read(tmp_path/"times.csv")["size"]) == ["paper", "quick"], "a size has a row of its own"
-
-
-def test_what_is_left_is_told_by_estimates_and_by_what_they_were_worth(tmp_path):
-    assert left("paper", tmp_path) == (4, 12.0)
-    TOY.run("quick", workers=1, out=tmp_path)
-    claim_seconds(tmp_path, 5.0)
-    TOY.run("quick", workers=1, out=tmp_path)       # nothing runs, the seconds are read anew
-    assert left("quick", tmp_path) == (0, 0.0)
-    assert left("paper", tmp_path) == (2, 45.0), "five times the estimates"
 
 
 def test_the_time_left_is_reckoned_from_what_is_done_since_the_start():
@@ -72,9 +49,3 @@ def test_the_time_left_is_reckoned_from_what_is_done_since_the_start():
     assert left_at(70) == left_at(1000) == "?", "a case that has begun tells nothing"
     bar.fractions[0] = 1.0
     assert left_at(1024) == "51:12", "three times as long"
-
-
-def test_a_size_that_there_is_none_of(monkeypatch, capsys):
-    monkeypatch.setenv("SIZE", "foo")
-    assert timing.main(["rb"]) == 2
-    assert "'foo': choose one of quick, paper, fine" in capsys.readouterr().err

@@ -55,13 +55,12 @@ def test_help_lists_every_target_by_the_name_that_is_typed(make):
 @pytest.mark.parametrize(("size", "last"),
                          [("paper", ["films", "execute", "report equations", "report tables", "report"]),
                           ("quick", ["report --out results/quick"])])
-def test_all_studies_are_told_their_hours_first_and_become_notebooks_films_and_the_page_last(make, size, last,
-                                                                                             tmp_path):
+def test_all_studies_become_notebooks_films_and_the_page_last(make, size, last, tmp_path):
     set_up(tmp_path, "ready", "ready-lab", "ready-films")
     code, text = make("-n", "studies", f"SIZE={size}")
     lines = [line.strip() for line in text.splitlines()
              if line.strip().startswith((".venv/bin/python", "for one in"))]
-    wanted = ["kit.timing one two", "studies one", "studies two", *last]
+    wanted = ["studies one", "studies two", *last]
     assert code == 0 and len(lines) == len(wanted), text
     assert all(word in line for word, line in zip(wanted, lines)), lines
 
@@ -73,7 +72,7 @@ def set_up(folder, *stamps):
 
 
 @pytest.mark.parametrize(("words", "added"), [
-    (["study-one"], []), (["figures-one"], []), (["hours"], []), (["report"], ["films"]),
+    (["study-one"], []), (["figures-one"], []), (["report"], ["films"]),
     (["films"], ["films"]), (["lint"], ["test"]), (["test"], ["test", "cluster", "films"]),
     (["notebooks"], ["lab"]), (["lab"], ["lab"]), (["bench"], ["bench"]),
     (["study-one", "SCHEDULER=tcp://h:1"], ["cluster"]), (["worker", "SCHEDULER=tcp://h:1"], ["cluster"])])

@@ -74,7 +74,7 @@ def test_current_amplitudes_have_dirichlet_moments(corrected):
 def test_heat_kicks_have_the_amplitude_of_the_current_temperatures():
     edges = delaunay(jittered((4, 4), 0.2, 1), None)
     T, C, dt = np.linspace(0.5, 1.5, 16), 12.0, 0.05
-    kicks = heat_kicks(edges, C, dt)(7)
+    kicks = heat_kicks(edges, C, dt, 7)
     samples = np.array([kicks(T, step)*edges.V for step in range(20000)])
     across = fluctuating.incidence(edges).toarray()
     expected = across@np.diag(2*edges.k*T[edges.i]*T[edges.j]/C*dt)@across.T

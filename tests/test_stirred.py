@@ -10,7 +10,6 @@ from studies.build.spam import VARIANTS, at_rest
 from studies.lattices.loss import Law, gain, laws, projected, roll, strained, thickness
 from studies.lattices.stirred import (
     SHEARED,
-    STARTS,
     STIRRED,
     Corrected,
     Stirred,
@@ -66,12 +65,6 @@ def test_stresses_are_a_double_sum_over_pairs():
     np.testing.assert_allclose(stresses(sums), known, atol=1e-12)
 
 
-@pytest.mark.parametrize("start", list(STARTS))
-def test_starts_fill_the_box_evenly(start):
-    x = STARTS[start](RayleighBenard(ra=1e4, L=25.0, aspect=1.0), 1)
-    assert len(x) == pytest.approx(625, rel=0.05) and np.abs(x.mean(axis=0)).max() < 0.7
-
-
 def test_slip_of_an_exact_profile():
     y = np.arange(40) - 19.5
     assert slip_length(np.array([0*y + 3, 3*(0.1 + np.cos(np.pi*y/40))]), 3.0) == pytest.approx(4/np.pi)
@@ -85,7 +78,7 @@ def test_plates_that_slip_are_rigid_and_free_ones_in_the_limits():
 
 def test_a_law_is_found_again_and_makes_a_fluid_more_viscous():
     C, q = 0.007, 0.25
-    runs = pd.DataFrame({"variant": "printed", "h": 3.0, "mode": "stirred", "start": "square",
+    runs = pd.DataFrame({"variant": "printed", "h": 3.0, "mode": "stirred",
                          "corrected": False, "flow": 0.8, "P": 1.0, "friction": [0.01, 0.02, 0.04, 0.08]})
     runs["stress"] = projected(q)*C*runs["friction"]**q
     found = next(laws(runs))

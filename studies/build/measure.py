@@ -36,14 +36,15 @@ class Ended(NamedTuple):
 
 
 def followed(scene: Any, variant: Any, seed: int, t_end: float, often: int,
-             report: Any = None, checkpoint: Path | None = None) -> tuple[Ready, int, Run | None]:
+             report: Any = None, checkpoint: Path | None = None,
+             **more: Any) -> tuple[Ready, int, Run | None]:
     """(start, steps, end) of a run until t_end in free-fall times; no end if it diverged.
 
-    `variant.series` is read `often` times in one.
+    `variant.series` is read `often` times in one. more : of a `Plan`.
     """
     ready, unit = variant.ready(scene, seed), scene.L/scene.free_fall
     plan = Plan(dt=ready.dt, steps=round(t_end*unit/ready.dt), series=variant.series,
-                every=max(1, round(unit/often/ready.dt)), checkpoint=checkpoint)
+                every=max(1, round(unit/often/ready.dt)), checkpoint=checkpoint, **more)
     try:
         return ready, plan.steps, run(ready.method, ready.start, plan, report)
     except Divergence as error:

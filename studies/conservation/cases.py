@@ -29,7 +29,16 @@ from studies.conservation.drift import (
     Wall,
 )
 from studies.conservation.forces import VISCOUS, BesideSpam, EdgeTorque, MotionTorque
-from studies.conservation.motions import ALONG, STILL, BracketForce, Identity, MovingSound, Pattern, Signs
+from studies.conservation.motions import (
+    ALONG,
+    PLACES,
+    STILL,
+    BracketForce,
+    Identity,
+    MovingSound,
+    Pattern,
+    Signs,
+)
 from studies.conservation.slow_flows import VARIANTS, CylinderDrag, SlidingShear, TurningWave
 from studies.conservation.sums import CUBE, EVERYTHING, LINE, SQUARE, DihDrift, Unsymmetric
 from studies.kit.case import Case
@@ -114,8 +123,8 @@ def moving() -> Iterator[MovingDrift]:
 
 
 def once() -> Iterator[Case]:
-    """Equations evaluated once."""
-    yield Signs()
+    """Equations evaluated once, and positions by two rules."""
+    yield from (Signs(), *PLACES)
     yield from (BracketForce(a=float(a), b=float(b)) for a, b in POWERS)
     yield from (BesideSpam(a=float(a), b=float(b)) for a, b in ((1, -1), (0, 0), (2, 0)))
     for (name, transport), reynolds in product((("nested", NestedFluxes()), ("pairwise", ALONG)), REYNOLDS):

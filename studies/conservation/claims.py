@@ -92,6 +92,15 @@ MOVING = (
           value=changed("literal, RK4", "literal, TwoStep"),
           statement="mass, momentum and energy stay while points move literally: largest relative drift "
                     "over 1e4 steps, all weights, both integrators"),
+    *(Claim(id=f"rr98-eq41-accuracy{name}", source="RR98 Eq. 41", at_most=1, printed="more accurate",
+            headline=name != "-mass", value=one("accuracy", "ratio", motion=motion, flow=flow),
+            because="smaller than one is more accurate; the reference is RK4",
+            statement="positions with new velocities are more accurate: their error over that with old ones, "
+                      f"{words}")
+      for name, motion, flow, words in (
+          ("", "literal", "sound", "sound in literal motion"),
+          ("-mass", "constant-mass", "sound", "sound at constant mass"),
+          ("-vortices", "constant-mass", "vortices", "decaying vortices at constant mass"))),
     *(Claim(id=f"rr98-eq{n}-sign", source=f"RR98 Eq. {n}", printed="-", expect=1, within=0.02,
             because=SMOOTHED, value=one("signs", "factor", equation=n, wavelength=32), headline=True,
             statement=f"what is added to the change of {name} is v.grad of it: over the exact one, lattice, "

@@ -10,8 +10,6 @@ BODIES = {"surface": "points on the surface", "frozen": "frozen lattice points",
           "frozen-grown": "frozen, half a spacing more"}
 
 
-
-
 def drags(drag: pd.DataFrame) -> Figure:
     """Error of the drag against the published value over the resolution, one panel a solid fraction."""
     fractions = sorted(set(drag["fraction"]))

@@ -5,12 +5,21 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.linalg import norm
 
 from continuum.fluid import ConstEta, IdealGas
 from particles.integral.dih import Pairwise
 from particles.integral.points import Points, jittered, lattice
-from particles.integral.rr98_moving_plain import ConstantMass, Convective, Motion, Powers, convected, scale_of
-from particles.integrators import RK4
+from particles.integral.rr98_moving_plain import (
+    MOTIONS,
+    ConstantMass,
+    Convective,
+    Motion,
+    Powers,
+    convected,
+    scale_of,
+)
+from particles.integrators import RK4, Euler, TwoStep
 from particles.limits import lattice_sums
 from particles.threads import Threads
 from particles.weights import Lucy
@@ -206,3 +215,59 @@ class MovingSound(Case):
             {"motion": self.motion, "weight": self.weight.__name__, "h": self.h,
              "wavelength": self.wavelength, "predicted": float(np.sqrt(stiffness + more)),
              **with_errors(speed=speed)}]})
+
+
+# --- positions ----------------------------------------------------------------------------------
+
+
+def sound_flow(x: np.ndarray, box: np.ndarray) -> tuple[np.ndarray, ...]:
+    """Sound that travels, so that no phase of it is special: rho, v, T."""
+    wave = 0.02*np.sin(2*np.pi*x[:, 0]/box[0])
+    return 1 + wave/C, np.stack([wave, 0*wave], axis=1), 1 + wave/C
+
+
+def vortex_flow(x: np.ndarray, box: np.ndarray) -> tuple[np.ndarray, ...]:
+    """Taylor-Green vortices, the pressure in balance: rho, v, T."""
+    (X, Y), u = (2*np.pi*x/box).T, 0.1
+    v = u*np.stack([np.sin(X)*np.cos(Y), -np.cos(X)*np.sin(Y)], axis=1)
+    return np.ones(len(x)), v, 1 + u*u/4*(np.cos(2*X) + np.cos(2*Y))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Places(Case):
+    """Rms error of positions with new velocities over that with old ones, against RK4 in as many steps.
+
+    The error of that reference is its difference from RK4 with half as many. start : rho, v, T of positions
+    and box, `flow` its name.
+    """
+    motion: str
+    flow: str
+    start: Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, ...]]
+    counts: tuple[int, int]
+    law: ConstEta
+    time: float
+    steps: int
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        exact, coarse = self.places(RK4, self.steps), self.places(RK4, self.steps//2)
+        new, old = (norm(self.places(integrator, self.steps) - exact) for integrator in (TwoStep, Euler))
+        ratio, err = new/old, norm(exact - coarse)
+        return Outcome({"accuracy": [{"motion": self.motion, "flow": self.flow, "ratio": ratio,
+                                      "ratio_err": ratio*(err/new + err/old)}]})
+
+    def places(self, integrator: Any, steps: int) -> np.ndarray:
+        """Positions (n, 2) at the end."""
+        points = lattice(self.counts)
+        method = moving(MOTIONS[self.motion], points, Lucy.of(h=3.0), self.law, transport=Pairwise())
+        state = method.state(points.x, *self.start(points.x, points.box))
+        march(method, state, self.time/steps, steps, lambda state: None, integrator)
+        return method.fields(state).x
+
+
+#: sound for one and a half periods: after whole ones the errors of some integrators are small by chance
+PLACES = (
+    Places(motion="literal", flow="sound", start=sound_flow, counts=(16, 7), law=STILL, time=13.0, steps=240),
+    Places(motion="constant-mass", flow="sound", start=sound_flow, counts=(16, 7), law=STILL, time=18.9,
+           steps=320),
+    Places(motion="constant-mass", flow="vortices", start=vortex_flow, counts=(12, 12),
+           law=ConstEta(0.2, 0.2), time=10.0, steps=320))

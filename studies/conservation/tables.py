@@ -38,6 +38,8 @@ ALL = (
              about="A sound wave on moving points; predicted from sums over the lattice and one moved."),
     Table.of("long_sound", "motion weight", "speed speed_err", means=SOUND,
              about="The same of endless waves, extrapolated."),
+    Table.of("accuracy", "motion flow", "ratio ratio_err", about="Positions at the end of a run.",
+             means={"ratio": ("error with new velocities [Eq. 41] over that with old ones [Eq. 40]", "")}),
     Table.of("identity", "transport reynolds", "convective",
              about="Accelerations of two forms of the momentum equation for one set of random fields."),
     Table.of("signs", "equation wavelength", "factor",

@@ -1,13 +1,7 @@
-"""How long things take: CPU seconds, compiling apart; and whole studies, measured as they run, in times.csv.
-
-    python -m studies.kit.timing STUDY ...      prints what these studies have still to do, in minutes of CPU
-"""
-import os
+"""How long things take: CPU seconds, compiling apart; whole studies, measured as they run, in times.csv."""
 import statistics
-import sys
 import time
-from collections.abc import Callable, Iterable, Sequence
-from importlib import import_module
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
 
@@ -18,9 +12,8 @@ from scipy.special import stdtrit
 from numba.core import event  # isort: skip
 
 from studies.kit.case import Case
-from studies.kit.csvfile import commit, cpu, put, read, versions
-from studies.kit.store import kept, results, seconds
-from studies.kit.table import check_size
+from studies.kit.csvfile import commit, cpu, put, versions
+from studies.kit.store import seconds
 
 REPEATS = 7
 #: half of the interquartile range of 7 repeats -> half width of the 95 % interval of their median:
@@ -95,40 +88,3 @@ def put_times(out: Path, study: str, size: str, cases: Sequence[Case]) -> None:
     estimate = sum(case.cost for case in cases)
     new = pd.DataFrame([[study, size, len(cases), estimate, spent, commit()]], columns=COLUMNS)
     put(out/"times.csv", new, by=["study", "size"], order=["study", "size"], head=[versions(), cpu()])
-
-
-def left(study: str, cases: Iterable[Case], size: str, out: Path) -> tuple[int, float]:
-    """How many cases have no result; their estimates, times what a whole run took over its own estimates.
-
-    That run is of the same size, or the longest that was measured; without any, estimates stay as they are.
-    """
-    every = {case.key: case for case in cases}
-    todo = [case.cost for case in every.values() if kept(case, out/"raw"/study) is None]
-    times = read(out/"times.csv", COLUMNS) if (out/"times.csv").exists() else pd.DataFrame(columns=COLUMNS)
-    runs = times.query("study == @study").sort_values("cpu_s")
-    of_size = runs[runs["size"] == size]
-    measured = runs if of_size.empty else of_size
-    ratios = [1.0, *measured["cpu_s"]/measured["estimate_s"]]
-    return len(todo), ratios[-1]*sum(todo)
-
-
-def main(names: Sequence[str]) -> int:
-    """The command line; 0, or 2 for an unknown size."""
-    try:
-        size = check_size(os.environ.get("SIZE") or "paper")
-    except ValueError as error:
-        print(f"hours: {error}", file=sys.stderr)
-        return 2
-    print(f"size {size}, what is left, in minutes of CPU:", flush=True)
-    hours = 0.0
-    for name in names:
-        study = import_module(f"studies.{name}").STUDY
-        todo, cpu_s = left(study.name, study.cases(size), size, results(size))
-        hours += cpu_s/3600
-        print(f"{name:<14}{todo:>5} cases {cpu_s/60:>6.1f} min", flush=True)
-    print(f"together {hours:.1f} hours of CPU, {hours/2:.1f} on two cores; Ctrl-C keeps what is finished")
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))

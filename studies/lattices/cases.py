@@ -50,7 +50,6 @@ def quick() -> Iterator[Case]:
     yield from (*speeds(), *spectra())
     for U, variant in product((0.05, 0.1, 0.2), ("printed", "less-static-50")):
         yield Stirred(variant=VARIANTS[variant], rows=25, U=U, time=3.0)
-    yield Stirred(variant=VARIANTS["printed"], rows=25, time=1.0, held=False)
     yield Stirred(variant=VARIANTS["less-static-90"], mode=PLATES, rows=25, time=3.0)
     yield Thickened(ra=10_000.0)
 
@@ -99,13 +98,13 @@ def speeds() -> Iterator[Case]:
 
 
 def spectra() -> Iterator[Case]:
-    """Of frozen lattices, in boxes of some thousand particles."""
+    """Of frozen lattices."""
     for crystal, kind, h in product((HEXAGONAL, SQUARE), WEIGHTS, (2.5, 3.0, 4.0, 5.0, 6.0)):
-        yield Debye(crystal=replace(crystal, weight=kind, h=h, cells=(60, 35)))
+        yield Debye(crystal=replace(crystal, weight=kind, h=h))
 
 
 def stirred() -> Iterator[Stirred]:
-    """Forces, rows, viscosities, pressures, starts, steps, weights; decays, corrected sums."""
+    """Forces, rows, viscosities, pressures, steps, weights; corrected sums."""
     printed = VARIANTS["printed"]
     for rows, U, seed in product((25, 50), (0.02, 0.05, 0.1, 0.2, 0.4), SEEDS):
         if rows == 25 or seed < 3:
@@ -119,12 +118,9 @@ def stirred() -> Iterator[Stirred]:
     for name, U in product(OTHERS, (0.1, 0.2, 0.4)):
         yield Stirred(variant=VARIANTS[name], rows=50, U=U)
     for seed in SEEDS:
-        yield Stirred(variant=printed, rows=25, start="hexagonal", seed=seed)
         yield Stirred(variant=VARIANTS["printed-half-step"], rows=25, seed=seed)
         yield Stirred(variant=printed, rows=25, seed=seed, corrected=True)
     yield Stirred(variant=printed, rows=50, corrected=True)
-    for rows, seed in product((25, 50, 100), SEEDS):
-        yield Stirred(variant=printed, rows=rows, seed=seed, time=1.0, held=False)
 
 
 def aligned() -> Iterator[Stirred]:
@@ -174,26 +170,18 @@ FREEZING_FLOW = Table.of("freezing_flow", "ra rows", "fastest",
                          about="How uneven the grid's flow of that gas is.")
 SPEEDS = Table.of("sound_speeds", "lattice weight", "speed", about="The longest waves along x on a lattice.",
                   means={"speed": ("speed of sound over the fluid's", "")})
-DEBYE = Table.of("debye", CRYSTAL, "sound shear growing",
+DEBYE = Table.of("debye", CRYSTAL, "sound shear",
                  about="Long waves on a lattice: their number below a frequency over that of the fluid's.",
                  means={"sound": ("of the faster ones", ""),
-                        "shear": ("of the slower ones, if none grows", ""),
-                        "growing": ("share of all waves that grow: lattices that melt by themselves", "")})
-SPECTRUM = Table.of("spectrum", f"{CRYSTAL} omega", "modes fluid",
-                    about="Waves a particle on a lattice where none grows, with frequencies below omega.",
-                    means={"omega": ("frequency", "1/t0"), "modes": ("their number", ""),
-                           "fluid": ("Debye's, of sound alone", "")})
-RUN = "variant h corrected rows seed"
+                        "shear": ("of the slower ones, if none grows", "")})
 OVER = "over that of the exact flow"
 DRIVEN = Table.of(
-    "driven", f"{RUN} mode walls start U thick P",
-    "flow flow_err excess excess_err stress stress_err kinetic kinetic_err friction symbol early late "
-    "slip",
+    "driven", "variant h corrected rows seed mode walls U thick P",
+    "flow flow_err excess excess_err stress stress_err kinetic kinetic_err friction symbol slip",
     about="A flow that a force holds, without gravity or heat: who bears the force. Stresses are amplitudes.",
     means={"mode": ("stirred: vortices; sheared: along x; plates: along x between plates", ""),
            "corrected": ("pressures times the inverse of M_i", ""),
            "walls": ("what is behind plates, in the mode plates", ""),
-           "start": ("lattice at the start; hexagonal: 598 particles in 25 rows, density 0.96", ""),
            "U": ("amplitude of the exact flow", "a/t0"), "thick": ("viscosity over rows/100", ""),
            "P": ("part of the static pressure that the sums hold", "epsilon/a^2"),
            "flow": (f"amplitude {OVER}", ""), "excess": ("stress that viscosity leaves over", "epsilon/a^2"),
@@ -201,13 +189,5 @@ DRIVEN = Table.of(
            "kinetic": ("stress of the noise", "epsilon/a^2"),
            "friction": ("stress of viscosity", "epsilon/a^2"),
            "symbol": ("friction of the scheme on a lattice over the exact one", ""),
-           "early": ("stress in the first half of the means", "epsilon/a^2"),
-           "late": ("in the second one", "epsilon/a^2"), "slip": ("slip length at the plates", "a")})
-DECAYS = Table.of(
-    "decays", RUN, "measured predicted symbol deviator kinetic", about="Vortices that decay by e.",
-    means={"measured": ("viscosity by the decay over the given one", ""), "corrected": ("as in driven", ""),
-           "predicted": ("the sum of the three beside it", ""), "symbol": ("as in driven", ""),
-           "deviator": ("stress of the pressure sum over that of friction, mean over time", ""),
-           "kinetic": ("the same of the noise", "")})
-TABLES = (GROWTH, ONSETS, FREEZING, FREEZING_LIMITS, FREEZING_FLOW, SPEEDS, DEBYE, SPECTRUM, DRIVEN, DECAYS,
-          *LOSS)
+           "slip": ("slip length at the plates", "a")})
+TABLES = (GROWTH, ONSETS, FREEZING, FREEZING_LIMITS, FREEZING_FLOW, SPEEDS, DEBYE, DRIVEN, *LOSS)

@@ -124,8 +124,8 @@ def lawful(kind: Variant) -> tuple:
 
 
 def fitted(driven: pd.DataFrame) -> pd.DataFrame:
-    """Runs that a law is fitted to, with J = eta gamma/P and stress over P, of stirred square starts."""
-    usual = driven.query("mode == 'stirred' and start == 'square' and not corrected and flow > 0.1")
+    """Runs that a law is fitted to, with J = eta gamma/P and stress over P, of stirred runs."""
+    usual = driven.query("mode == 'stirred' and not corrected and flow > 0.1")
     steps = usual[usual["variant"].isin(VARIANTS)]
     steps = steps[steps["h"] == [VARIANTS[name].h for name in steps["variant"]]]
     steps = steps[~steps["variant"].isin(FAR)]

@@ -1,4 +1,4 @@
-"""Which stress do particles bear beside that of friction? Flows that a force holds or that decay.
+"""Which stress do particles bear beside that of friction? Flows that a force holds.
 
 A gas of T = 1 in a periodic box or between plates; the force n eta k^2 U v(x) holds U v(x) exactly, of whose
 stress n eta k U d(x) is the amplitude. A run ends with A v(x), and with three more amplitudes along d:
@@ -24,11 +24,9 @@ from particles.run import Plan, Run, run
 from particles.smooth.spam import Spam
 from particles.smooth.sums import Direct, Nested
 from studies.build import spam
-from studies.build.names import START_JITTER
 from studies.build.scenes import Tile
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import mean, with_errors
-from studies.lattices.crystals import LATTICES
 
 SETTLED = 1/3           # of a run, before means: three turns and more of the flow
 LOOKS = 10              # in the time that friction takes to slow a flow by e
@@ -201,29 +199,16 @@ def slip_length(rows: np.ndarray, h: float) -> float:
     return float(s*L/(np.pi*V))
 
 
-def hexagonal(scene: Any, seed: int) -> np.ndarray:
-    """Places (n, 2) of a jittered hexagonal lattice, stretched by 2 % or less to fit the box."""
-    lattice, box = LATTICES["hexagonal"], np.array([scene.width, scene.L])
-    columns, rows = np.round(box/lattice.size).astype(int)
-    x = lattice.places((columns, rows))*box/lattice.box((columns, rows))
-    return x + np.random.default_rng(seed).uniform(-START_JITTER, START_JITTER, x.shape)
-
-
-STARTS = {"square": spam.scattered, "hexagonal": hexagonal}
-
-
 @dataclass(frozen=True, kw_only=True)
 class Stirred(Case):
     """One flow. U : exact amplitude, as at the start. thick : eta over that of Ra 10 000. time : how long, in
-    those of friction. held : else it decays. corrected : with `Corrected`."""
+    those of friction. corrected : with `Corrected`."""
     variant: Any
     mode: Mode = STIRRED
     rows: int
     U: float = 0.2
     thick: float = 1.0
-    start: str = "square"
     time: float = 8.0
-    held: bool = True
     corrected: bool = False
     seed: int = 1
 
@@ -244,47 +229,34 @@ class Stirred(Case):
         plain = spam.method(scene, self.variant)
         pushed = Corrected if self.corrected else PushAlong if plain.transport is Direct else Push
         values = {one.name: getattr(plain, one.name) for one in fields(Spam)} | {"transport": pushed}
-        return Driven(**values, mode=self.mode, U=self.U*self.held)
+        return Driven(**values, mode=self.mode, U=self.U)
 
     def run(self, report: Report, folder: Path) -> Outcome:
         method = self.method
         scene = Tile(width=method.box[0], L=method.box[1], law=method.law)
-        state = spam.at_rest(STARTS[self.start](scene, self.seed), 1.0)
+        state = spam.at_rest(spam.scattered(scene, self.seed), 1.0)
         state[2:4] = self.U*method.v(state)
         dt = self.variant.step*step_limit(method, 1.0)
         once = 1/(method.friction*method.k)     # of friction at density 1
         steps = round(self.time*once/dt)
         series = {"A": of_flow, "stress": of_pressure, "kinetic": of_noise}
-        looks = LOOKS if self.held else 4*LOOKS
-        plan = Plan(dt=dt, steps=steps, every=max(1, round(once/looks/dt)), series=series,
-                    means={"rows": in_rows}, mean_from=SETTLED*self.time*once*self.held)
-        done = run(method, state, plan, report)
-        key = {"variant": self.variant.name, "h": self.variant.h, "corrected": self.corrected,
-               "rows": self.rows, "seed": self.seed, "cpu_s": done.cpu_s}
-        return Outcome(self.ended(method, done, key) if self.held else self.decayed(method, done, key))
+        plan = Plan(dt=dt, steps=steps, every=max(1, round(once/LOOKS/dt)), series=series,
+                    means={"rows": in_rows}, mean_from=SETTLED*self.time*once)
+        return Outcome({"driven": [self.row(method, run(method, state, plan, report))]})
 
-    def ended(self, method: Driven, done: Run, key: dict[str, Any]) -> dict[str, list[dict[str, Any]]]:
-        """A row of `driven`."""
+    def row(self, method: Driven, done: Run) -> dict[str, Any]:
+        """What bears the force, means over the late part of a run."""
         late = {name: np.array(values)[round(SETTLED*len(values)):] for name, values in done.series.items()}
         A, stress, kinetic = (mean(late[name]) for name in ("A", "stress", "kinetic"))
-        first, last = (half.mean() for half in np.array_split(late["stress"], 2))
         slip = slip_length(done.means["rows"], method.weight.h) if self.mode is PLATES else np.nan
-        return {"driven": [key | {
-            "mode": self.mode.name, "start": self.start, "U": self.U, "thick": self.thick,
+        return {
+            "variant": self.variant.name, "h": self.variant.h, "corrected": self.corrected,
+            "rows": self.rows, "seed": self.seed, "cpu_s": done.cpu_s,
+            "mode": self.mode.name, "U": self.U, "thick": self.thick,
             "walls": self.variant.walls.__name__, "P": 1 - self.variant.fraction,
-            "symbol": symbol(method), "early": first, "late": last,
-            "slip": slip, "friction": method.friction*A.value,
+            "symbol": symbol(method), "slip": slip, "friction": method.friction*A.value,
             **with_errors(flow=A/self.U, excess=method.friction*(self.U - A), stress=stress,
-                          kinetic=kinetic)}]}
-
-    def decayed(self, method: Driven, done: Run, key: dict[str, Any]) -> dict[str, list[dict[str, Any]]]:
-        """A row of `decays`: viscosity that the decay shows, and what the parts of the stress make of it."""
-        A, stress, kinetic = (np.array(done.series[name]) for name in ("A", "stress", "kinetic"))
-        rate = method.friction*method.k
-        parts = [float(np.mean(q/(method.friction*A))) for q in (stress, kinetic)]
-        return {"decays": [key | {
-            "measured": float(np.log(self.U/A[-1])/(rate*done.times[-1])), "symbol": symbol(method),
-            "deviator": parts[0], "kinetic": parts[1], "predicted": symbol(method) + sum(parts)}]}
+                          kinetic=kinetic)}
 
 
 def symbol(method: Driven) -> float:

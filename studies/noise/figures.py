@@ -34,5 +34,4 @@ def printed(rows: pd.DataFrame) -> Figure:
     return page
 
 
-
 FIGURES = Drawings(Drawing("printed", ("printed",), printed))

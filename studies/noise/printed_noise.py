@@ -25,7 +25,7 @@ from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import over_seeds, with_errors
 from studies.noise.covariance import Step, steady_of_steps
 from studies.noise.partners import ETA, KAPPA, KT
-from studies.noise.sampling import BATCHES, Kick, Sampler, check_length
+from studies.noise.sampling import BATCHES, check_length
 
 WAVES = 32          # spacings of the longest wave
 
@@ -194,18 +194,16 @@ class MovingSteps(Case):
 # --- heat with current amplitudes ------------------------------------------------------------
 
 
-def heat_kicks(edges: Edges, C: float, dt: float) -> Callable[[int], Kick]:
+def heat_kicks(edges: Edges, C: float, dt: float, seed: int) -> Callable[[np.ndarray, int], np.ndarray]:
     """Heat with the amplitude of the current T_i T_j between points of heat capacity C (in k), kappa = C."""
     across, normals, i, j = fluctuating.incidence(edges), np.empty((len(edges.i), 1)), edges.i, edges.j
 
-    def kicks(seed: int) -> Kick:
-        def kick(T: np.ndarray, step: int) -> np.ndarray:
-            fill_pairs(0, len(normals), seed, step, i, j, normals)
-            squared = np.maximum(T[i]*T[j], 0)      # below zero once in very many
-            amplitude = np.sqrt(2*edges.k*squared/C*dt)
-            return across@(amplitude*normals[:, 0])/edges.V
-        return kick
-    return kicks
+    def kick(T: np.ndarray, step: int) -> np.ndarray:
+        fill_pairs(0, len(normals), seed, step, i, j, normals)
+        squared = np.maximum(T[i]*T[j], 0)      # below zero once in very many
+        amplitude = np.sqrt(2*edges.k*squared/C*dt)
+        return across@(amplitude*normals[:, 0])/edges.V
+    return kick
 
 
 def heat_rates(edges: Edges, C: float, corrected: bool) -> np.ndarray:
@@ -239,11 +237,18 @@ class Capacity(Case):
         edges = renormalised(lattice(self.counts), Lucy.of(h=1.5))
         J = heat_rates(edges, self.C, self.corrected)
         check_length(J, self.steps*self.dt)
-        sampler = Sampler(J=J, kicks=heat_kicks(edges, self.C, self.dt), look=np.var, dt=self.dt,
-                          steps=self.steps, seed=self.seed)
-        batches = sampler.batches(np.ones(edges.n), report, BATCHES + 1)[1:, 1::2]
+        one, T, variances = np.eye(edges.n), np.ones(edges.n), []
+        inverse = np.linalg.inv(one - self.dt/2*J)      # Crank-Nicolson: exact variances at any step
+        A = inverse@(one + self.dt/2*J)
+        for batch in range(BATCHES + 1):
+            kick, looks = heat_kicks(edges, self.C, self.dt, 1000*self.seed + batch), []
+            for step in range(self.steps):
+                T = A@T + inverse@kick(T, step)
+                looks.append(np.var(T))
+            variances.append(np.mean(looks[1::2]))
+            report((batch + 1)/(BATCHES + 1))
         # `var` divides by n: (n - 1)/n of the variance of one point about the fixed mean is in it already
-        variance = over_seeds(batches.mean(axis=1))
+        variance = over_seeds(variances[1:])
         return Outcome({"capacity": [{
             "C": self.C, "noise": "corrected" if self.corrected else "current",
             "predicted": dirichlet(edges.n, self.C, self.corrected), **with_errors(measured=variance)}]})

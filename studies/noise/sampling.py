@@ -1,9 +1,8 @@
-"""Samples of linear systems, and of the full equations    [RR98 Eqs 20-25]
+"""Samples of the full equations    [RR98 Eqs 20-25]
 
 Each mean is made of 20 batches, each ten decay times of the slowest mode or longer, started where the one
 before ended: their scatter, with its t factor, is the error.
 """
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -23,43 +22,6 @@ from studies.noise.partners import ETA, KAPPA, ZETA
 BATCHES = 20
 DECAYS = 10         # of the slowest mode, at least, in a batch
 
-#: from a state (N,) and the number of the step
-Kick = Callable[[np.ndarray, int], np.ndarray]
-
-
-@dataclass(frozen=True, kw_only=True)
-class Sampler:
-    """Batches of dx = J x dt + noise, x (N,), by Crank-Nicolson, whose covariance is exact at any step.
-
-    kicks : from the seed of a batch what a step of it adds to (1 + dt J/2) x. look : what of a state is kept.
-    """
-    J: np.ndarray
-    kicks: Callable[[int], Kick]
-    look: Callable[[np.ndarray], Any]
-    dt: float
-    steps: int
-    seed: int
-
-    def batches(self, state: np.ndarray, report: Report, count: int = BATCHES) -> np.ndarray:
-        """Looks (count, steps, ...), each batch with noise of its own seed."""
-        looks = []
-        for number in range(count):
-            kick = self.kicks(1000*self.seed + number)
-            batch, state = self.batch(state, kick)
-            looks.append(batch)
-            report((number + 1)/count)
-        return np.array(looks)
-
-    def batch(self, state: np.ndarray, kick: Kick) -> tuple[np.ndarray, np.ndarray]:
-        """Looks (steps, ...) and the last state."""
-        one, looks = np.eye(len(self.J)), []
-        inverse = np.linalg.inv(one - self.dt/2*self.J)
-        A = inverse@(one + self.dt/2*self.J)
-        for step in range(self.steps):
-            state = A@state + inverse@kick(state, step)
-            looks.append(self.look(state))
-        return np.array(looks), state
-
 
 def check_length(J: np.ndarray, time: float) -> None:
     """Raise ValueError: batches are shorter than DECAYS decay times of the slowest mode not conserved."""
@@ -68,11 +30,6 @@ def check_length(J: np.ndarray, time: float) -> None:
     if time*slow < DECAYS:
         raise ValueError(f"a batch of {time:.4g} is {time*slow:.3g} decay times of the slowest mode, less "
                          f"than {DECAYS}: batches would be correlated; take {DECAYS/slow:.4g} or longer")
-
-
-def ratio(batches: np.ndarray) -> dict[str, float]:
-    """Columns of a mean over batches."""
-    return with_errors(ratio=over_seeds(batches))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -107,7 +64,8 @@ class Nonlinear(Case):
         before = start@V
         drift = np.abs(state@V - before).max()/before[-1]
         ratios = np.array(powers[1:])/(edges.n - 1)/self.k      # the first batch forgets the start
-        rows = [{"share": self.share, "k": self.k, "drift": drift, "field": name, **ratio(values)}
+        key = {"share": self.share, "k": self.k, "drift": drift}
+        rows = [{**key, "field": name, **with_errors(ratio=over_seeds(values))}
                 for name, values in zip(("rho", "v", "T"), ratios.T, strict=True)]
         return Outcome({"nonlinear": rows})
 

@@ -24,7 +24,6 @@ def legend(page: Figure, axes: Axes, columns: int, **more: Any) -> None:
     page.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=columns, **more)
 
 
-
 def growth(means: pd.DataFrame) -> Figure:
     """Growth rates of sound at rest by maker of edges and kind of points."""
     groups = means.query("d == 2").groupby("viscosity")

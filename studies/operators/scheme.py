@@ -12,6 +12,7 @@ from continuum.scene import RayleighBenard
 from particles.integral.edges import Edges
 from particles.integral.interpolants import W
 from particles.integral.points import Points
+from particles.limits import jacobian
 from particles.threads import Threads
 from particles.weights import WendlandC2
 from studies.build.fixed import SCHEMES, fluid
@@ -23,7 +24,6 @@ from studies.operators.weights import around, integral
 VISCOSITIES = (0.0, 0.1)    # rho c a
 C2 = 2.0                    # gamma P/rho of the ideal gas at rho = T = 1
 NULL = 1e-6                 # rates that small belong to waves that the operators do not see
-SINGLE = 1e-6               # of a central difference: a change of one field of one point
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -133,21 +133,6 @@ class EulerLimit(Case):
         return Outcome({"euler": rows})
 
 
-def linear(sums: Any, state: np.ndarray, change: np.ndarray) -> np.ndarray:
-    """What a small change of the state makes of its rates, by a central difference."""
-    up, down = np.empty_like(state), np.empty_like(state)
-    sums.rates(state + change, up)
-    sums.rates(state - change, down)
-    return (up - down)/2
-
-
-def jacobian(sums: Any, state: np.ndarray) -> np.ndarray:
-    """d rates/d state of a compiled scheme, (size, size); fields are of order 1."""
-    changes = SINGLE*np.eye(state.size)
-    columns = [linear(sums, state, change.reshape(state.shape)).ravel() for change in changes]
-    return np.stack(columns, axis=1)/SINGLE
-
-
 @dataclass(frozen=True, kw_only=True)
 class LayerGrowth(Case):
     """The fastest growing disturbance of a motionless layer between plates; `h` in spacings, rate in c/a.
@@ -169,7 +154,7 @@ class LayerGrowth(Case):
         y, c = method.x[:, 1], np.sqrt(2*scene.T_mean)
         state = method.state(1.0, np.zeros_like(method.x), scene.T(y))
         sums = method.start(len(y), Threads(1))
-        growth = np.linalg.eigvals(jacobian(sums, state)).real.max()
+        growth = np.linalg.eigvals(jacobian(sums.rates, state)).real.max()
         key = {"h": self.h, "rows": self.rows, "ra": self.ra, "share": self.share}
         return Outcome({"nested_growth": [key | {"growth": growth/c}]})
 

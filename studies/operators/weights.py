@@ -181,11 +181,6 @@ def gradient_symbol(w: np.ndarray, at: Around, k: float) -> float:
     return float(at.number@(w*at.x/at.r*np.sin(k*at.x)))/k
 
 
-def spread_symbol(w: np.ndarray, at: Around, k: float) -> float:
-    """sum (2 w/r) (1 - cos kx)/k^2 of the pairwise Laplacian."""
-    return float(at.number@(4*w/at.r*np.sin(k*at.x/2)**2))/k**2
-
-
 @dataclass(frozen=True, kw_only=True)
 class LatticeSums(Case):
     """Discrete moments of a weight with range or width r0 (in spacings).

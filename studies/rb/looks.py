@@ -10,12 +10,10 @@ from studies.kit.table import Tables
 from studies.rb.tables import ALL, POINT
 
 COLUMNS = {table.name: table.columns for table in ALL}
-#: KHP95's ideal gas in the layer of Fig. 5; its square box of Fig. 6
+#: KHP95's ideal gas in the layer of Fig. 5
 LAYER = {"eos": "ideal", "transport": "const-eta", "sides": "periodic", "pr": 1}
-BOX = {**LAYER, "sides": "walls"}
 GRID = {"method": "compressible", "variant": "flux-form"}
 SPAM = {"method": "spam", "variant": "printed"}
-FROM_FLOW = {"variant": "printed-from-flow"}     # the same, but started from the grid's steady flow
 #: Rayleigh numbers that have a panel
 RA_SHOWN = (5000, 10000)
 KHP95_PARTICLES = 5000
@@ -24,7 +22,6 @@ KHP95_PARTICLES = 5000
 KIND: dict[str, dict[str, Any]] = {
     "grid": {**look(0), "color": "black"}, "kp": look(1), "kg": {**look(2), "color": "#0072B2"},
     "nu": {**look(3), "linestyle": "-."},
-    "from-flow": {**look(4), "color": "#0072B2", "linestyle": "none"},
     "khp": {"color": "black", "linestyle": "none", "markerfacecolor": "none", "markersize": 9,
             "markeredgewidth": 1.4, "zorder": 5}}
 OPEN = {"markerfacecolor": "white"}

@@ -102,7 +102,7 @@ def figure_points() -> Iterator[Claim]:
     points += [("fig6", f"{ra}", 40, ra, square, {"sides": "walls"}) for ra in (10000, 20000)]
     for figure, end, height, ra, words, where in points:
         yield Claim(id=f"khp95-{figure}-{end}", source=f"KHP95 Sec. VI, Fig. {figure[3]}", printed="about 5%",
-                    at_most=0.075, because=SOME, headline=ra >= 10000, evidence=f"rb/{figure}.png",
+                    at_most=0.075, because=SOME, headline=ra >= 10000,
                     statement=f"velocities of {words} Ra {ra}, from energies",
                     value=velocity(ra, height, **where))
 
@@ -173,7 +173,7 @@ CLAIMS = (
               statement="some 500 particles make convincing currents: K of 512, van der Waals, Ra 10 000, "
                         "over the grid's", value=against_alike(particles(1e4, 16, eos="vdw"))),
     Claim(id="khp95-fig7-runs", source="KHP95 Fig. 7", printed="two rolls", expect=2, within=0,
-          headline=True, evidence="rb/fig7.png",
+          headline=True,
           statement="512 van der Waals particles convect with two rolls, Ra 10 000",
           because="a whole number; Ra is not printed", value=rolls(particles(1e4, 16, eos="vdw"))),
     Claim(id="own-window", source="KHP95 Sec. VI", at_most=0.01, value=later(),

@@ -138,7 +138,7 @@ LINES: dict[str, tuple[str, dict[str, str], str]] = {
     "vdw-panel": ("Fig. 5", {"eos": "vdw"}, "onset to four times onset, van der Waals"),
     "ke-line-square": ("Fig. 6", {"sides": "walls"},
                        "onset, 5012, to four times onset in the square, one roll")}
-SHOWN = {"ke-line": "rb/fig5.png", "ke-line-square": "rb/fig6.png"}
+SHOWN = {"ke-line": "rb/main.png", "ke-line-square": ""}
 
 
 def energies() -> Iterator[Claim]:

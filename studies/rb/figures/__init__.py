@@ -83,16 +83,11 @@ def over_rows(axes: Axes, chosen: pd.DataFrame) -> None:
     axes.set_ylabel("relative error of $K$")
 
 
-#: tables that have energies and errors; what the tables lack is left out
-OF_ENERGIES = ("means", "kinetic_energy", "smoothed")
+#: tables that have errors; what the tables lack is left out
 OF_ERRORS = ("errors", "kinetic_energy")
 
 figures = Drawings(
     Overview("main", ("means", *OF_ERRORS), main),
-    Overview("fig2_3", ("particles",), flow.fig2_3),
-    Overview("fig5", ("means", "kinetic_energy"), energy.fig5),
-    Overview("fig6", OF_ENERGIES, energy.fig6),
-    Overview("fig7", ("particles",), flow.fig7),
     Overview("fig8", ("history",), energy.fig8),
     Overview("fig9", ("fields",), flow.fig9),
     Overview("fig12", ("particles",), flow.fig12),

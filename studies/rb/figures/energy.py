@@ -1,4 +1,4 @@
-"""Kinetic energy: against Ra^-1/2 and time, KHP95's Figs 5, 6, 8; what changes of a scheme do to it."""
+"""Kinetic energy: against Ra^-1/2 and time, KHP95's Fig. 8; what changes of a scheme do to it."""
 from collections.abc import Iterable
 from itertools import product
 from typing import Any
@@ -12,20 +12,15 @@ from studies.build.moving import DRIFT_MOTIONS, MOTIONS
 from studies.build.names import ENERGY, ra_axis
 from studies.build.spam import VARIANTS
 from studies.build.words import name_of
-from studies.kit.figure import FILLS, below, figure
+from studies.kit.figure import figure
 from studies.kit.table import Tables, groups
 from studies.rb import looks
-from studies.rb.looks import BOX, ENERGIES, FROM_FLOW, GRID, KHP95_PARTICLES, KIND, LAYER, MARKS, OPEN, SPAM
+from studies.rb.looks import ENERGIES, GRID, KIND, LAYER, MARKS, OPEN, SPAM
 from studies.rb.tables import STILL
 
 Style = dict[str, Any]
 #: how far marks at the same Ra are moved apart, in Ra^-1/2
 ASIDE = 1.5e-4
-SMOOTHED_GRID: Style = {"color": KIND["kg"]["color"], "marker": "", "linestyle": "-.", "lw": 1.5,
-                        "label": "the grid's field, smoothed like $K_g$"}
-#: a second series of the same kind in one panel
-SECOND = {"linestyle": "--", **OPEN}
-ETA, NU = "constant $\\eta$", "constant $\\nu$"
 RA = 10000      # of what changes of a scheme do
 #: how much lower the next coarser resolution stands
 LOWER = 0.36
@@ -34,16 +29,9 @@ LINEAR = 10
 TICKS = (-1000, -300, -100, -30, -10, -5, 0, 5, 10, 30, 100, 300, 1000)
 
 
-def smoothed_grid(axes: Axes, field: pd.DataFrame, limit: pd.DataFrame) -> None:
-    """K of the grid's field, smoothed as the particles smooth theirs: what Kg is to be compared with."""
-    field = field[(field["ke"] > STILL) & field["ra"].isin(limit["ra"])]
-    if len(field):
-        axes.plot(field["ra"]**-0.5, field["ke_smoothed"], **SMOOTHED_GRID)
-
-
-def grid(axes: Axes, limit: pd.DataFrame, words: str, **more: Any) -> None:
+def grid(axes: Axes, limit: pd.DataFrame, words: str) -> None:
     """Line and markers of an extrapolated grid; the line stops where motion dies out."""
-    style, flow = KIND["grid"] | more, limit[limit["ke"] > STILL]
+    style, flow = KIND["grid"], limit[limit["ke"] > STILL]
     if len(flow):
         axes.errorbar(flow["ra"]**-0.5, flow["ke"], flow["ke_err"], label=words, **style)
         axes.plot(limit["ra"]**-0.5, limit["ke"], **style | MARKS)
@@ -58,14 +46,14 @@ def energies(axes: Axes, spam: pd.DataFrame, column: str, words: str, style: Sty
     looks.cross_out(axes, x, ke, spam["steady"])
 
 
-def name_frozen(axes: Axes, limit: pd.DataFrame, spam: pd.DataFrame, aside=(-14, 16)) -> None:
+def name_frozen(axes: Axes, limit: pd.DataFrame, spam: pd.DataFrame) -> None:
     """A word where the grid convects and the finest particles, from weak rolls, stand still on a lattice."""
     both = looks.finest(spam).merge(limit[["ra", "ke"]], on="ra", suffixes=("", "_grid"))
     frozen = both[(both["ke_grid"] > STILL) & (both["ke_field"] < 0.01*both["ke_grid"])]
     line = {"arrowstyle": "-", "lw": 0.6, "shrinkB": 4}
     for ra in frozen["ra"]:
-        axes.annotate("frozen, from weak rolls", (ra**-0.5, 0), xytext=aside, textcoords="offset points",
-                      fontsize=8, ha="right" if aside[0] < 0 else "left", arrowprops=line)
+        axes.annotate("frozen, from weak rolls", (ra**-0.5, 0), xytext=(-14, 16),
+                      textcoords="offset points", fontsize=8, ha="right", arrowprops=line)
 
 
 def above_zero(axes: Axes) -> None:
@@ -73,67 +61,6 @@ def above_zero(axes: Axes) -> None:
     top = axes.get_ylim()[1]
     axes.set_ylim(-0.02*top, top)
     ra_axis(axes)
-
-
-def finish(axes: Axes, note: str = "") -> None:
-    """Both axes and the legend below."""
-    above_zero(axes)
-    below(axes, ncols=2, title=f"bars: 95 % intervals{note}", title_fontsize=8)
-
-
-def fig5(tables: Tables) -> Figure | None:
-    """Kinetic energy K of convection against the Rayleigh number: grid and 5000 particles. Two gases, two
-    transport laws.
-    """
-    page, (left, right) = figure(1, 2, width=5, height=4.6, sharex=True, sharey=True)
-    pair(left, tables, LAYER, ETA)
-    pair(left, tables, LAYER | {"transport": "const-nu"}, NU, ASIDE, **SECOND)
-    pair(right, tables, LAYER | {"eos": "vdw"}, ETA)
-    if not (left.has_data() or right.has_data()):
-        return None
-    finish(left)
-    finish(right)
-    left.set(ylabel=ENERGY, title="ideal gas; particles at constant $\\nu$ moved right")
-    right.set_title("van der Waals gas")
-    page.suptitle("Smooth particles (spam) convect less than the grid and freeze early    [KHP95, Fig. 5]")
-    return page
-
-
-def pair(axes: Axes, tables: Tables, scene: dict[str, Any], name: str, aside: float = 0.0,
-         **more: Any) -> None:
-    """Grid of a scene and Kp, Kg of its finest particles, as many as KHP95 had or fewer."""
-    spam, limit = looks.particles(tables, **scene), looks.reference(tables, **scene)
-    spam = looks.finest(spam[spam["particles"] <= KHP95_PARTICLES])
-    grid(axes, limit, f"grid, {name}", **more)
-    if not more:
-        name_frozen(axes, limit, spam)
-    for kind, (column, words) in ENERGIES.items():
-        energies(axes, spam, column, f"{words}, {name}", KIND[kind] | more, aside)
-
-
-def fig6(tables: Tables) -> Figure | None:
-    """Kinetic energy in a box with four walls. Left all particles beside the grid, right their field."""
-    limit, spam = looks.reference(tables, **BOX), looks.particles(tables, **BOX)
-    if limit.empty or spam.empty:
-        return None
-    page, both = figure(1, 2, width=5, height=5, sharex=True, sharey=True)
-    for axes, (kind, (column, words)) in zip(both, ENERGIES.items()):
-        grid(axes, limit, "grid, extrapolated")
-        for number, (_, group) in enumerate(reversed(groups(spam, "resolution"))):
-            smaller = {"markersize": 7 - 1.2*number, "zorder": 4 - number, **FILLS[number]}
-            many = f"{words}, {group['particles'].iloc[0]:.0f} particles"
-            energies(axes, group, column, many, KIND[kind] | smaller, ASIDE*number)
-    smoothed_grid(both[1], looks.seen(tables, **BOX, rows=spam["resolution"].max()), limit)
-    name_frozen(both[1], limit, spam, aside=(36, 44))
-    from_flow = KIND["from-flow"] | {"markersize": 10, "markerfacecolor": "none", "zorder": 6}
-    started = looks.finest(looks.particles(tables, **BOX, **FROM_FLOW))
-    energies(both[1], started, "ke_field", "$K_g$, started from the grid's flow", from_flow)
-    both[0].set(ylabel=ENERGY, ylim=(0, 1.1*max([*limit["ke"], *spam["ke"]])))
-    for axes in both:
-        finish(axes, "; smaller marks: moved right")
-    page.suptitle("In a square box few particles (spam) tremble more than they flow    [KHP95, Fig. 6]\n"
-                  "upper ends of long bars are cut")
-    return page
 
 
 def fig8(tables: Tables) -> Figure | None:

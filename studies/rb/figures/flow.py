@@ -1,4 +1,4 @@
-"""Views of the flow: particles as arrows, fields as contours    [KHP95, Figs 2, 3, 7, 9, 12]"""
+"""Views of the flow: particles as arrows, fields as contours    [KHP95, Figs 9, 12]"""
 from typing import Any
 
 import numpy as np
@@ -17,9 +17,6 @@ MANY = 2000     # particles
 RANGE = 3.0     # of Lucy's weight, in spacings
 #: column, name with unit
 CONTOURS = (("rho", r"density  [$m/\sigma^2$]"), ("T", r"temperature  [$\varepsilon/k_B$]"))
-#: variant, what stands behind the plates
-BEHIND = (("printed-fixed-rows", "fixed particles behind the plates    [KHP95, Fig. 2]"),
-          ("printed", "images behind the plates    [KHP95, Fig. 3]"))
 
 
 def run_of(tables: Tables, name: str, **wanted: Any) -> pd.DataFrame:
@@ -28,44 +25,16 @@ def run_of(tables: Tables, name: str, **wanted: Any) -> pd.DataFrame:
     return run[run["seed"] == run["seed"].min()]
 
 
-def fig2_3(tables: Tables) -> Figure | None:
-    """Particles in convection, one instant. Arrows are velocities, circles what stands behind the plates."""
-    runs = {title: run_of(tables, "particles", **SPAM | LAYER | {"variant": name}) for name, title in BEHIND}
-    runs = {title: run for title, run in runs.items() if len(run)}
-    if not runs:
-        return None
-    page, all_axes = figure(len(runs), 1, width=7, height=4.4, squeeze=False, sharey=True)
-    scale = max(map(arrow_scale, runs.values()))
-    for axes, (title, run) in zip(all_axes[:, 0], runs.items()):
-        arrows(axes, fluid(run), scale)
-        behind_plates(axes, run)
-        box(axes, half_width(run), f"{heading(run)}: {title}", scale)
-    return page
-
-
-def fig7(tables: Tables) -> Figure | None:
-    """512 particles of a van der Waals gas already roll. Above the particles at one instant, below their
-    smoothed velocities.
-    """
-    runs = rows(tables, "particles", **SPAM, **LAYER | {"eos": "vdw"})
-    few = {"particles": runs[runs["resolution"] == runs["resolution"].min()]}
-    return two_views(run_of(Tables(few), "particles"), "van der Waals gas, at one instant    [KHP95, Fig. 7]")
-
-
 def fig12(tables: Tables) -> Figure | None:
     """5000 particles in convection. Above the particles at one instant, below their smoothed velocities."""
-    return two_views(run_of(tables, "particles", **SPAM, **LAYER), "at one instant    [KHP95, Fig. 12]")
-
-
-def two_views(run: pd.DataFrame, title: str) -> Figure | None:
-    """Particles above, below them their velocities of the same instant smoothed by the weight."""
+    run = run_of(tables, "particles", **SPAM, **LAYER)
     if run.empty:
         return None
     page, (upper, lower) = figure(2, 1, width=7, height=3.75)
     scale, half, field = arrow_scale(run), half_width(run), smoothed(run)
     arrows(upper, fluid(run), scale)
     arrows(lower, field, scale)
-    box(upper, half, f"{heading(run)}, {title}", scale)
+    box(upper, half, f"{heading(run)}, at one instant    [KHP95, Fig. 12]", scale)
     box(lower, half, f"the same instant, smoothed: $\\langle v \\rangle$ at {len(field)} places", scale)
     for axes in (upper, lower):
         axes.set_ylim(-0.54, 0.54)
@@ -95,13 +64,6 @@ def arrows(axes: Axes, at: pd.DataFrame, scale: float) -> None:
     """Velocities."""
     axes.quiver(at["x"], at["y"], at["vx"], at["vy"], angles="xy", scale_units="xy", scale=scale,
                 color="black", width=0.0015, headwidth=4, headlength=5, headaxislength=4.5)
-
-
-def behind_plates(axes: Axes, run: pd.DataFrame) -> None:
-    """Open circles at fixed and image particles; copies of the periodic sides are left out."""
-    behind = (run["kind"] != "fluid") & (run["y"].abs() > 0.5) & (run["x"].abs() <= half_width(run))
-    axes.plot(run["x"][behind], run["y"][behind], "o", markersize=2.2, markerfacecolor="none",
-              markeredgewidth=0.4, color="#D55E00")
 
 
 def half_width(run: pd.DataFrame) -> float:

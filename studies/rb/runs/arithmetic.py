@@ -1,7 +1,6 @@
 """Numbers that need no flow: printed ones, equations of state, weights, a few particles    [KHP95]"""
 from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import product
 from math import pi, sqrt
 from pathlib import Path
 from typing import Any
@@ -57,24 +56,6 @@ def energy_error(ra: int) -> Measured:
     return Measured(1 - ratio, ratio*rounding)
 
 
-def zero_of_pair() -> Measured:
-    """Ra where the line in Ra^-1/2 through both printed grid energies is zero; error from rounding."""
-    (a, k), (b, q) = ((ra**-0.5, published(f"khp95-ke-{ra}")) for ra in (5000, 10000))
-
-    def zero(low: float = 0.0, high: float = 0.0) -> float:
-        one, other = k.value + low*k.uncertainty, q.value + high*q.uncertainty
-        return ((one*b - other*a)/(one - other))**-2
-    corners = product((-1.0, 1.0), repeat=2)
-    return Measured(zero(), max(abs(zero(*corner) - zero()) for corner in corners))
-
-
-def read_line() -> Measured:
-    """K at Ra 10 000 on the line through zero at onset and the printed K at Ra 5000."""
-    start, k = critical_ra(pi), published("khp95-ke-5000")
-    factor = (1 - sqrt(start/10000))/(1 - sqrt(start/5000))
-    return factor*Measured(k.value, k.uncertainty)
-
-
 def ra_by_expansivity() -> float:
     """Ra of Fig. 10 by the definition of Sec. I, alpha = 1/<T>."""
     scene = RayleighBenard(ra=1.0, L=number("fig10-height"), T_hot=number("fig10-temperature-hot"),
@@ -95,8 +76,6 @@ def printed_numbers() -> Numbers:
         "1 - K/K printed, Ra 10 000": energy_error(10000),
         "1 - sqrt(K/K) printed, Ra 5000": 1 - (1 - energy_error(5000))**0.5,
         "1 - sqrt(K/K) printed, Ra 10 000": 1 - (1 - energy_error(10000))**0.5,
-        "zero of the line through both printed K": zero_of_pair(),
-        "K at Ra 10 000 on the line from onset through K at Ra 5000": read_line(),
         "4^(1/2)": number("line-range")**-number("line-exponent"),
         "initial over final kinetic energy": Measured(9.0, 0.5)/(5000*number("ke-10000")),
         "5000 eta/L^2": number("fig9-time")*0.5/50**2,
@@ -191,6 +170,7 @@ def few_particles() -> Numbers:
     return {
         "accelerations against -grad of sum 2 w": few.not_molecular(),
         "drift of kinetic energy and sum of w": few.energy_drift(),
+        "part that comes back bit by bit": few.returned(),
         "order of the way back": few.order(few.return_errors, few.MOLECULES, few.STEPS[:3]),
         "sum of forces over moduli": momentum,
         "sum of energy rates over moduli": energy_left,

@@ -1,4 +1,4 @@
-"""One run on points, fixed or moving, in the layer    [RR98, Sec. III]"""
+"""One run of particles or on points, fixed or moving, in the layer    [KHP95; RR98, Sec. III]"""
 from abc import abstractmethod
 from dataclasses import dataclass
 from pathlib import Path
@@ -24,6 +24,7 @@ from studies.rb.runs.grid import field_rows
 
 OFTEN = 8           # records of points that move in a free-fall time
 RECORDS = 4         # the same of fixed points
+MANY = 240          # samples of a history that is shown
 #: columns of a run that diverged
 DIVERGED = {**dict.fromkeys((*VALUES, "cpu_s"), np.nan), "rolls": 0, "converged": False, "mass_drift": 0.0,
             "compile_s": 0.0}
@@ -37,6 +38,7 @@ class PointsRun(Case):
     seed: int = 1
     t_end: float
     often: ClassVar[int] = OFTEN        # records in a free-fall time
+    method: ClassVar[str] = "dih"
 
     def __post_init__(self):
         check_spacings(self.scene)
@@ -55,14 +57,19 @@ class PointsRun(Case):
         return self.scene.L/self.scene.free_fall
 
     @property
+    def plan(self) -> dict[str, Any]:
+        """What is recorded besides the series of the variant, as `Plan` has it."""
+        return {}
+
+    @property
     def point(self) -> dict:
         """Key columns of every row."""
-        return {"method": "dih", "variant": self.variant.name, **scene_columns(self.scene),
+        return {"method": self.method, "variant": self.variant.name, **scene_columns(self.scene),
                 "resolution": round(self.scene.L), "seed": self.seed}
 
     def run(self, report: Report, folder: Path) -> Outcome:
         ready, steps, done = followed(self.scene, self.variant, self.seed, self.t_end, self.often, report,
-                                      folder/"run.h5")
+                                      folder/"run.h5", **self.plan)
         row = {**self.point, "particles": self.points, "free_fall": self.scene.free_fall, "threads": 1,
                "dt": ready.dt, "steps": steps, "t_end": steps*ready.dt}
         if done is None:
@@ -73,6 +80,12 @@ class PointsRun(Case):
     def more(self, ready: Ready, done: Run) -> Rows:
         """Rows of other tables."""
         return {}
+
+    def history(self, done: Run, samples: int, ke: str = "ke", field: str = "ke") -> list[dict]:
+        """K(t) of all and of the field, some samples."""
+        every = slice(None, None, max(1, len(done.times)//samples))
+        t, all_of, smooth = (np.array(q)[every] for q in (done.times, done.series[ke], done.series[field]))
+        return table_rows(self.point, t=t, t_viscous=t/self.scene.viscous_time, ke=all_of, ke_field=smooth)
 
     def flow(self, ready: Ready, done: Run) -> dict:
         """Rolls at the end, and the relative change of mass."""
@@ -111,10 +124,13 @@ class AveragedRun(PointsRun):
     t_end: float = 90.0
     mean_from: float = 50.0
 
+    def late(self, done: Run, name: str) -> np.ndarray:
+        """A series after `mean_from`."""
+        return np.array(done.series[name])[np.array(done.times) > self.mean_from*self.unit]
+
     def energies(self, done: Run) -> dict:
         """Means; the heat that both plates do not share is in the error of Nu."""
-        late = np.array(done.times) > self.mean_from*self.unit
-        ke, lower, upper = (np.array(done.series[name])[late] for name in ("ke", "lower", "upper"))
+        ke, lower, upper = (self.late(done, name) for name in ("ke", "lower", "upper"))
         twice = 2*heat_at_rest(self.scene)
         (K, steady), (heat, _) = settled(ke, HALVES), settled((lower - upper)/twice)
         nu_err = np.hypot(heat.err, np.mean(lower + upper)/twice)
@@ -151,17 +167,14 @@ class CarriedRun(AveragedRun):
 
     def more(self, ready: Ready, done: Run) -> Rows:
         """Nu at both plates and of the whole layer; what is kept."""
-        unit, late = heat_at_rest(self.scene), np.array(done.times) > self.mean_from*self.unit
-        through = {"lower": np.array(done.series["lower"]), "upper": -np.array(done.series["upper"]),
-                   "layer": unit + np.array(done.series["carried"])}
-        nu = [settled(heat[late]/unit)[0] for heat in through.values()]
+        unit = heat_at_rest(self.scene)
+        through = {"lower": self.late(done, "lower"), "upper": -self.late(done, "upper"),
+                   "layer": unit + self.late(done, "carried")}
+        nu = [settled(heat/unit)[0] for heat in through.values()]
         rows = {"walls": table_rows(self.point, plate=list(through), nu_plate=[one.value for one in nu],
                                     nu_plate_err=[one.err for one in nu])}
         if self.keep:
-            every = slice(None, None, len(done.times)//240)
-            t, ke = np.array(done.times)[every], np.array(done.series["ke"])[every]
-            rows["history"] = table_rows(self.point, t=t, t_viscous=t/self.scene.viscous_time, ke=ke,
-                                         ke_field=ke)
+            rows["history"] = self.history(done, MANY)
             at, grid = ready.method.fields(done.state), Grid.over((self.scene.width, self.scene.L), 30)
             rows["fields"] = field_rows(self.point, self.scene, grid, between(at, self.scene.width, grid))
         return rows
