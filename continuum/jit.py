@@ -1,7 +1,7 @@
 """numba's settings, once, and formulas that are chosen by the type of what a scene lists.
 
-Import this module before numba: it names the disk cache of compiled code after the sources. numba itself
-notices a change only in the file of the compiled function.
+It names the disk cache of compiled code after all sources: numba itself notices a change only in the file of
+the compiled function, and goes on with what it had compiled of the others.
 """
 import hashlib
 import os
@@ -23,12 +23,14 @@ def source_hash() -> str:
 
 os.environ.setdefault("NUMBA_CACHE_DIR", str(ROOT / ".numba_cache" / source_hash()))
 
-import llvmlite.binding  # noqa: E402  (the cache folder must be known first)
+import llvmlite.binding  # noqa: E402  (numba reads where the cache is when it is imported)
 import numba  # noqa: E402
 from numba.core import caching  # noqa: E402
 from numba.extending import overload, register_jitable  # noqa: E402
 
 import continuum.linking  # noqa: E402, F401  (before anything is compiled)
+
+numba.config.CACHE_DIR = os.environ["NUMBA_CACHE_DIR"]      # another module may have imported it before
 
 _load_index = caching.IndexDataCacheFile._load_index
 

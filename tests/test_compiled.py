@@ -35,3 +35,13 @@ def results(cache, *ways: str) -> str:
 def test_a_cold_and_a_warm_cache_give_the_same_bytes_in_any_order(ways, tmp_path):
     cold = results(tmp_path, *ways)
     assert len(cold) > 1000 and cold == results(tmp_path, *ways) == results(tmp_path, *reversed(ways))
+
+
+@pytest.mark.parametrize("first", ["studies.__main__", "studies.front", "studies.judge", "numba"])
+def test_compiled_code_is_kept_under_the_hash_of_all_sources_whatever_is_imported_first(first):
+    # numba alone looks at one file: a term of 9 sums ran in a loop that was compiled for its 7
+    said = f"import {first}, continuum.jit, numba; print(numba.config.CACHE_DIR)"
+    unnamed = {name: value for name, value in os.environ.items() if name != "NUMBA_CACHE_DIR"}
+    done = subprocess.run([sys.executable, "-c", said], env=unnamed, capture_output=True, text=True,
+                          check=True)
+    assert ".numba_cache" in done.stdout
