@@ -19,7 +19,8 @@ from particles.pairs import Stored
 FLAT = -1e-9
 #: neighbours for which a ring has room at the least, one more than it has; points a row that is made longer
 ROOM, POINTS = 7, 16
-STRIP = 4.0         # spacings
+#: spacings: wider ones cost a third more, neighbours come in fewer runs through memory
+STRIP = 2.0
 LEAST = 8.0         # spacings along a periodic axis: in a narrower box a point is a neighbour twice
 
 
