@@ -51,16 +51,12 @@ def put(rings, i, e, j):
 
 @jit
 def has_room(rings, i):
-    """Is there room for one more in the ring of i? A full one goes on in twice the room, behind all others."""
-    edges, room, end = rings.edges, u64(rings.room[i]), u64(rings.end[0])
-    if edges.taken[i] < room:
-        return True
-    if end + u64(2)*room > len(edges.near):
-        return False
-    for e in range(room):
-        edges.near[end + e] = edges.near[edges.first[i] + e]
-    edges.first[i], rings.room[i], rings.end[0] = end, u64(2)*room, end + u64(2)*room
-    return True
+    """Is there room for one more in the ring of i? A full one goes on behind all others, in twice its."""
+    edges, begin, room, end = rings.edges, rings.edges.first[i], u64(rings.room[i]), u64(rings.end[0])
+    if edges.taken[i] == room and end + u64(2)*room <= len(edges.near):
+        edges.near[end:end + room] = edges.near[begin:begin + room]
+        edges.first[i], rings.room[i], rings.end[0] = end, u64(2)*room, end + u64(2)*room
+    return edges.taken[i] < rings.room[i]
 
 
 @formula

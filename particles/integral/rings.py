@@ -90,12 +90,11 @@ def rows_of(table: np.ndarray, rim: np.ndarray, size: np.ndarray, per: np.ndarra
 
 def remade(rings: Rings, order: np.ndarray | None = None) -> Rings:
     """Rings in memory of their own with room to change, their rows in another order if one is given."""
-    n = len(rings.rim)
-    order = np.arange(n) if order is None else order
+    order = np.arange(len(rings.rim)) if order is None else order
     taken = rings.edges.taken[order]
     room = np.maximum(ROOM, taken + u32(1))
     ends = np.cumsum(room, dtype=u64)
-    entries = int(ends[-1]) + 2*ROOM*(1 + n//POINTS)
+    entries = int(ends[-1]) + 2*ROOM*(1 + len(order)//POINTS)
     edges = Stored(ends - room, taken, np.zeros(entries, u32), *np.zeros((3, entries)))
     _renumber(order, np.argsort(order), rings.edges, edges)
     return rings._replace(edges=edges, room=room.astype(np.uint8), end=np.array([ends[-1]], int))

@@ -58,8 +58,8 @@ def _simplices(points: Points, size: np.ndarray) -> tuple[np.ndarray, np.ndarray
     shift = np.random.default_rng(0).uniform(-SHIFT, SHIFT, points.x.shape)*points.a
     for margin in (MARGIN*points.a, points.box.max()/2)[points.d - 2:]:
         x, owner = _with_images(points, np.minimum(margin, points.box/2))
-        cuts = np.linspace(-0.5, 0.5, 2 + (points.n//AT_ONCE if points.d == 2 else 0))
-        simplices = np.concatenate([_strip(x, x + shift[owner], size, margin, *ends) for ends in pairwise(cuts)])
+        cuts = pairwise(np.linspace(-0.5, 0.5, 2 + (points.n//AT_ONCE if points.d == 2 else 0)))
+        simplices = np.concatenate([_strip(x, x + shift[owner], size, margin, *ends) for ends in cuts])
         at = x[simplices]
         if points.d > 2 or _diameters(at).max() < margin:
             break
