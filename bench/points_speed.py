@@ -56,7 +56,7 @@ def parts_of_a_step(ahead: int = 30) -> dict[str, Callable[[], float]]:
     sums = method.start(n, one)
     sums.march(y, dt, ahead)
     fluid, rings, bench = sums.fluid, sums.rings, sums.bench
-    geometry_of = (0, n, bench.middle, rings, bench.V, bench.pull, bench.spread, bench.crossed)
+    geometry_of = (0, n, y[:2], rings, bench.V, bench.pull, bench.spread, bench.crossed)
     return {"moving delaunay: edges, volumes": called(n, geometry, *geometry_of),
             "moving delaunay: strain, stress of triangles": called(n, follow, one, n, fluid, rings, bench),
             "moving delaunay: stress of triangles again": called(n, complete, one, n, 1.0, rings, bench),

@@ -63,6 +63,10 @@ class Sums(Protocol):
         """Called before a step; may sort `now.state` and `now.ids`. FloatingPointError: it cannot go on."""
         return None
 
+    def mark(self, now: Any) -> None:
+        """Put into a run what a restart needs besides its state, before it is saved."""
+        return None
+
     def confine(self, state: np.ndarray) -> int:
         """Bring back what has left through walls, after a step; the number of reflections."""
         return 0

@@ -52,10 +52,12 @@ def run(method: Any, start: ArrayLike, plan: Plan, progress: Callable[[float], N
                 progress(now.step/plan.steps)
             if plan.checkpoint is not None and monotonic() - saved > plan.checkpoint_seconds:
                 now.cpu_s, began = now.cpu_s + process_time() - began, process_time()
+                sums.mark(now)
                 save(plan.checkpoint, method, plan, start, now)
                 saved = monotonic()
     except KeyboardInterrupt:
         if plan.checkpoint is not None:
+            sums.mark(now)
             save(plan.checkpoint, method, plan, start, now)
         raise
     now.cpu_s += process_time() - began

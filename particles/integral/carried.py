@@ -44,19 +44,20 @@ class Fluid(NamedTuple):
 
 
 class Bench(NamedTuple):
-    """Room for a step: fields of points; what `geometry` gives in its middle; what was, and what edges bring.
+    """Room for a step: fields of points; what was; what `geometry` gives in its middle, and what edges bring.
 
     strain, stiffness (n,) : |grad v|, and a bound of the fastest rate at which a point's edges even it out.
-    left (2,) : parts of the step under way that are still to be made, and all of its parts.
+    What stages do not need lies in `before` (5, n), which only they do; strain takes the place of V. left
+    (2,) : parts of the step under way that are still to be made, and all of its parts.
     """
     points: np.ndarray
-    middle: np.ndarray
-    V: np.ndarray
-    pull: np.ndarray
-    spread: np.ndarray
     before: np.ndarray
+    middle: np.ndarray
+    spread: np.ndarray
+    V: np.ndarray
     strain: np.ndarray
     stiffness: np.ndarray
+    pull: np.ndarray
     flow: np.ndarray
     once: np.ndarray
     crossed: np.ndarray

@@ -49,6 +49,16 @@ def put(rings, i, e, j):
     rings.edges.taken[i] += u32(1)
 
 
+@jit
+def has_room(rings, i):
+    """Is there room for one more in the ring of i? A full one goes on behind all others, in twice its."""
+    edges, begin, room, end = rings.edges, rings.edges.first[i], u64(rings.room[i]), u64(rings.end[0])
+    if edges.taken[i] == room and end + u64(2)*room <= len(edges.near):
+        edges.near[end:end + room] = edges.near[begin:begin + room]
+        edges.first[i], rings.room[i], rings.end[0] = end, u64(2)*room, end + u64(2)*room
+    return edges.taken[i] < rings.room[i]
+
+
 @formula
 def doubled(x, y, size, per, i, j, k):
     """Twice the area of a triangle, positive counterclockwise."""
@@ -78,7 +88,6 @@ def flips(at, state, eos, rings, crossed, changed, stack):
     x, y = at
     size, per, near, count = rings.size, rings.per, rings.edges.near, 0
     x0, y0, exchanged = state[0], state[1], state[4:9]
-    stride = u64(len(near)//len(rings.rim))
     for row in range(len(crossed)):
         if not crossed[row]:
             continue
@@ -98,7 +107,7 @@ def flips(at, state, eos, rings, crossed, changed, stack):
             if not (doubled(x, y, size, per, i, l, k) > 0 and doubled(x, y, size, per, j, k, l) > 0):
                 continue        # not convex: another flip comes first
             for full in (k, l):
-                if u64(rings.edges.taken[full]) == stride:
+                if not has_room(rings, full):
                     return count, full
             remap(x0, y0, size, per, eos, exchanged, i, j, k, l)
             drop(rings, i, entry)

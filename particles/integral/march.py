@@ -49,6 +49,7 @@ def march(threads, steps, dt, fluid, rings, held, y, bench):
             read(threads, n, y, fluid.eos, fluid.law, bench.points)
             follow(threads, n, fluid, rings, bench)
             heat(held, 1.0, bench.once)
+            shift = fluid.shift*fastest(bench.strain, bench.free)
             parts = int(max(1.0, min(MOST, np.ceil(h*bench.stiffness.max()/REAL))))
             for count in range(4*parts):
                 s = count % 4
@@ -61,7 +62,7 @@ def march(threads, steps, dt, fluid, rings, held, y, bench):
                     heat(held, LATER[s], bench.once)
                 stage(threads, n, 0.5*h/parts, NEW[s], fluid, rings.edges, bench, y)
                 hold(fluid.eos, held, y)
-            move(threads, n, h, fluid.shift*fastest(bench.strain, bench.free), bench, y)
+            move(threads, n, h, shift, bench, y)
             left[0] -= 1
     return DONE, steps, -1
 
@@ -115,5 +116,5 @@ def move(first, last, dt, shift, bench, y):
     for i in range(u64(first), u64(last)):
         for c in range(2):
             y[c, i] += dt*y[c + 2, i]
-            if bench.free[i] > 0:
+            if bench.free[i]:
                 y[c + 2, i] = y[c + 4, i]/y[6, i] + shift*bench.pull[i, c]

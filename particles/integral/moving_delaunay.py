@@ -17,7 +17,7 @@ from particles.integral.carried import EXCHANGED, ROWS, Bench, Crossing, Fluid, 
 from particles.integral.exchange import Conduction, Friction, Listing
 from particles.integral.fixed import check_number
 from particles.integral.march import FULL, IMAGINARY, NEW, REAL, TURNED, march
-from particles.integral.rings import Rings, geometry, in_order, rows_of, table_of, wider
+from particles.integral.rings import Rings, geometry, in_order, remade, rows_of, table_of
 from particles.limits import limit_of
 from particles.lists import unphysical
 from particles.method import Leaps, Sums
@@ -35,8 +35,8 @@ AT_ONCE = 1_000_000
 EDGES_AT_ONCE = 4096
 #: points from which a step is worth Python's calls, which threads need
 MANY = 20_000
-#: places in memory between neighbours, by the median, from which points are sorted again
-AFAR = 32
+#: places in memory between neighbours, by the median of some points, from which points are sorted again
+AFAR, SOME = 32, 10_000
 
 
 class Carry(Leaps):
@@ -55,32 +55,25 @@ class Carry(Leaps):
 class RingSums(Sums):
     """The compiled sums on a triangulation that moves, with what the time loop asks for.
 
-    received (m, 3) : momentum and energy of held points, per time, at the state last looked at. ids (n,) :
-    the numbers of points as they come in memory.
+    received (m, 3) : momentum and energy of held points, per time, at the state last looked at.
     """
     method: "MovingDelaunay"
 
     def __init__(self, method: "MovingDelaunay", threads: Threads):
         n = len(method.x)
         self.method, self.threads, self.n, self.flips = method, threads, n, 0
-        self.rings, self.held = rows_of(table_of(method.rings), *method.rings[1:]), method.held
+        self.rings = remade(method.rings)
         self.fluid = Fluid(method.eos, method.law, Listing((Crossing(), *method.transport)), float(method.g),
                            float(method.shift))
-        self.now: Any = None
-        self.ids = np.arange(n)
         self.received = np.zeros((len(method.held.which), 3))
-        self.make_bench()
-
-    def make_bench(self) -> None:
-        """Room for steps; nothing in it outlives one."""
-        n, free = self.n, np.ones(self.n)
-        free[self.held.which] = 0.0
-        self.bench = Bench(
-            points=np.zeros(n, Point), middle=np.zeros((2, n)), V=np.zeros(n), pull=np.zeros((n, 2)),
-            spread=np.zeros(n), before=np.zeros((5, n)), strain=np.zeros(n), stiffness=np.zeros(n),
-            flow=np.zeros(n), once=np.zeros((n, 3)), crossed=np.zeros(n, bool), changed=np.zeros(n, bool),
-            stack=np.zeros((EDGES_AT_ONCE, 2), np.int64), free=free, flipped=np.zeros(1, np.int64),
-            left=np.zeros(2, np.int64))
+        before = np.zeros((5, n))
+        self.bench = Bench(     # nothing in it outlives a step
+            points=np.zeros(n, Point), before=before, middle=before[:2], spread=before[2], V=before[3],
+            strain=before[3], stiffness=before[4], pull=np.zeros((n, 2)), flow=np.zeros(n),
+            once=np.zeros((n, 3)), crossed=np.zeros(n, bool), changed=np.zeros(n, bool),
+            stack=np.zeros((EDGES_AT_ONCE, 2), np.int64), free=np.zeros(n, bool),
+            flipped=np.zeros(1, np.int64), left=np.zeros(2, np.int64))
+        self.reorder(np.arange(n))
 
     def go(self, steps: int, dt: float, state: np.ndarray) -> tuple[int, int, int]:
         """`march`; of many points step by step in Python, so that threads can share its loops."""
@@ -99,11 +92,12 @@ class RingSums(Sums):
                                          "has turned over: it is stretched faster than points shift; take "
                                          f"more rows, or a shift above {self.fluid.shift:g}")
             if how == FULL:
-                self.rings = wider(self.rings)
+                self.rings = remade(self.rings)
         self.flips += int(self.bench.flipped[0])
         self.bench.flipped[0] = 0
-        if self.now is not None:        # the triangulation goes along with the run, for a restart
-            self.now.anchor = table_of(self.rings)
+
+    def mark(self, now: Any) -> None:
+        now.anchor = table_of(self.rings)
 
     def resume(self, now: Any) -> None:
         """Take the triangulation of an interrupted run, and its order of points."""
@@ -111,23 +105,23 @@ class RingSums(Sums):
             raise ValueError("the state is not where the triangulation of the method is: start from the "
                              "method's own `state`, or make a method on these points")
         if now.anchor is not None:
-            self.rings = rows_of(now.anchor, *self.rings[1:])
+            self.rings = remade(rows_of(now.anchor, *self.rings[1:4]))
             self.reorder(now.ids)
-        self.now = now
 
     def reorder(self, order: np.ndarray) -> None:
         """Number held points and sides as points `order` come."""
-        self.ids, place = order.copy(), np.argsort(order)
+        place = np.argsort(order)
         self.held = self.method.held._replace(which=place[self.method.held.which])
         self.rings = self.rings._replace(rim=self.method.rings.rim[order])
-        self.make_bench()
+        self.bench.free[:] = True
+        self.bench.free[self.held.which] = False
 
     def make_ready(self, now: Any, dt: float) -> None:
         """Sort points in memory once neighbours are far apart there, which costs half as much again."""
-        near, first = self.rings.edges.near, self.rings.edges.first
-        if np.median(np.abs(near[first].astype(int) - np.arange(self.n))) > AFAR:
+        some = np.arange(0, self.n, 1 + self.n//SOME)
+        if np.median(np.abs(self.rings.edges.near[self.rings.edges.first[some]].astype(int) - some)) > AFAR:
             order = in_order(now.state[:2], self.rings.size)
-            self.rings = rows_of(table_of(self.rings, order), *self.rings[1:])
+            self.rings = remade(self.rings, order)
             now.state[:], now.ids[:] = now.state[:, order], now.ids[order]
             self.reorder(now.ids)
 
@@ -179,7 +173,7 @@ class MovingDelaunay:
         """(9, n) of densities (n,), velocities (n, 2), temperatures (n,); held points get their own."""
         n, which = len(self.x), self.held.which
         V, v, T = np.zeros(n), np.array(v, float), T*np.ones(n)
-        rings = rows_of(table_of(self.rings), *self.rings[1:])       # edges that are written take memory
+        rings = remade(self.rings)       # edges that are written take memory
         geometry(0, n, self.x.T.copy(), rings, V, np.zeros((n, 2)), np.zeros(n), np.zeros(n, bool))
         w = v.copy()
         v[which], w[which] = self.held.v, self.rides*self.held.v

@@ -17,18 +17,22 @@ from particles.pairs import Stored
 
 #: below this a conductance is negative, not round-off of points on one circle
 FLAT = -1e-9
-SPARE = 2           # free places in the longest ring
-STRIP = 4.0         # spacings
+#: neighbours for which a ring has room at the least, one more than it has; points a row that is made longer
+ROOM, POINTS = 7, 16
+#: spacings: wider ones cost a third more, neighbours come in fewer runs through memory
+STRIP = 2.0
 LEAST = 8.0         # spacings along a periodic axis: in a narrower box a point is a neighbour twice
 
 
 class Rings(NamedTuple):
     """edges : rows of S/2 and k, neighbours in order. rim (n,) : is the ring a chain? size (2,) : of the
-    box; per (2,) : 1/size along periodic axes, 0 along others."""
+    box; per (2,) : 1/size along periodic axes, 0 along others. room (n,) : of each row; end (1,) : of all."""
     edges: Stored
     rim: np.ndarray
     size: np.ndarray
     per: np.ndarray
+    room: np.ndarray
+    end: np.ndarray
 
 
 def rings(x: np.ndarray, size: tuple[float, float], closed: tuple[bool, bool]) -> Rings:
@@ -41,14 +45,11 @@ def rings(x: np.ndarray, size: tuple[float, float], closed: tuple[bool, bool]) -
         if not shut and length < LEAST*spacing*(1 - 1e-9):
             raise ValueError(f"the box is {length/spacing:.3g} spacings wide along {name}, where it is "
                              f"periodic: a moving triangulation needs {LEAST:g}, or a point meets its image")
-    corner, at = triangles(x, size, closed)
-    one, two = at[:, 1] - at[:, 0], at[:, 2] - at[:, 0]
-    turned = one[:, 0]*two[:, 1] < one[:, 1]*two[:, 0]
-    corner[turned] = corner[turned][:, ::-1]
+    corner, _ = triangles(x, size, closed)      # counterclockwise
     spokes = np.concatenate([corner, np.roll(corner, -1, axis=1), np.roll(corner, -2, axis=1)])
     spokes = spokes[np.lexsort((spokes[:, 1], spokes[:, 0]))]
     count = np.bincount(spokes[:, 0], minlength=len(x))
-    table = np.full((len(x), int(count.max()) + SPARE), -1, np.int32)
+    table = np.full((len(x), int(count.max()) + 1), -1, np.int32)
     rim, ends = np.zeros(len(x), bool), np.cumsum(count)
     for i in range(len(x)):
         rows = spokes[ends[i] - count[i]:ends[i], 1:]
@@ -57,39 +58,55 @@ def rings(x: np.ndarray, size: tuple[float, float], closed: tuple[bool, bool]) -
             raise ValueError(f"the triangles around point {i} at {x[i]} are no ring: look for points in one "
                              "place, or a side without a row of points")
         table[i, :len(ring)] = ring
-    return rows_of(table, rim, np.array(size, float), np.where(closed, 0.0, 1/np.array(size)))
+    return remade(rows_of(table, rim, np.array(size, float), np.where(closed, 0.0, 1/np.array(size))))
 
 
-def table_of(rings: Rings, order: np.ndarray | None = None) -> np.ndarray:
-    """Neighbours (n, stride), -1 where there is none; of points in another order, renumbered."""
-    near = rings.edges.near.reshape(len(rings.rim), -1).astype(np.int32)
-    table = np.where(np.arange(near.shape[1]) < rings.edges.taken[:, None], near, -1)
-    if order is None:
-        return table
-    return np.where(table < 0, -1, np.argsort(order)[table])[order].astype(np.int32)
+def table_of(rings: Rings) -> np.ndarray:
+    """Neighbours (n, stride), -1 where there is none."""
+    at, live = _places(rings)
+    return np.where(live, rings.edges.near[at].astype(np.int32), -1)
 
 
 def spokes(rings: Rings) -> tuple[np.ndarray, ...]:
     """Of each point neighbours, k, S_x/2, S_y/2 (n, stride), zero where there is no neighbour."""
-    n = len(rings.rim)
-    near, k, sx, sy = (part.reshape(n, -1) for part in (rings.edges.near, rings.edges.k, rings.edges.sx,
-                                                       rings.edges.sy))
-    live = np.arange(near.shape[1]) < rings.edges.taken[:, None]
-    return near, live*k, live*sx, live*sy
+    at, live = _places(rings)
+    return rings.edges.near[at], live*rings.edges.k[at], live*rings.edges.sx[at], live*rings.edges.sy[at]
+
+
+def _places(rings: Rings) -> tuple[np.ndarray, np.ndarray]:
+    """Of each point where its entries are (n, stride), and which of them there are."""
+    columns = np.arange(rings.edges.taken.max())
+    live = columns < rings.edges.taken[:, None]
+    return (rings.edges.first[:, None] + columns.astype(u64)*live), live
 
 
 def rows_of(table: np.ndarray, rim: np.ndarray, size: np.ndarray, per: np.ndarray) -> Rings:
-    """Rings from such a table; their edges are not known yet."""
+    """Rings from such a table; their edges are not known, and take no memory before they are."""
     n, stride = table.shape
     edges = Stored((stride*np.arange(n)).astype(u64), (table >= 0).sum(axis=1).astype(u32),
                    np.maximum(table, 0).astype(u32).ravel(), *np.zeros((3, n*stride)))
-    return Rings(edges, rim, size, per)
+    return Rings(edges, rim, size, per, np.full(n, stride, np.uint8), np.array([n*stride]))
 
 
-def wider(rings: Rings) -> Rings:
-    """The same with room for more neighbours."""
-    table = table_of(rings)
-    return rows_of(np.concatenate([table, np.full((len(table), SPARE), -1)], axis=1), *rings[1:])
+def remade(rings: Rings, order: np.ndarray | None = None) -> Rings:
+    """Rings in memory of their own with room to change, their rows in another order if one is given."""
+    order = np.arange(len(rings.rim)) if order is None else order
+    taken = rings.edges.taken[order]
+    room = np.maximum(ROOM, taken + u32(1))
+    ends = np.cumsum(room, dtype=u64)
+    entries = int(ends[-1]) + 2*ROOM*(1 + len(order)//POINTS)
+    edges = Stored(ends - room, taken, np.zeros(entries, u32), *np.zeros((3, entries)))
+    _renumber(order, np.argsort(order), rings.edges, edges)
+    return rings._replace(edges=edges, room=room.astype(np.uint8), end=np.array([ends[-1]], int))
+
+
+@jit
+def _renumber(order, place, old, new):
+    """Neighbours of rows `order`, each by its `place` there."""
+    for i in range(len(order)):
+        shift = old.first[order[i]] - new.first[i]
+        for e in range(new.first[i], new.first[i] + new.taken[i]):
+            new.near[e] = place[old.near[e + shift]]
 
 
 def in_order(x: np.ndarray, size: np.ndarray) -> np.ndarray:

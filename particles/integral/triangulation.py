@@ -1,5 +1,5 @@
 """Edges of P1 finite elements on the Delaunay triangulation: closed, exact on linear fields."""
-from itertools import product
+from itertools import pairwise, product
 from typing import Any
 
 import numpy as np
@@ -10,8 +10,10 @@ from particles.integral.points import Points, of_positions
 
 #: spacings: a shift where several triangulations are right, and the least distance that keeps their order
 SHIFT, APART = 1e-7, 1e-6
-#: spacings beyond the box in which images are looked for first, in 2D
+#: spacings beyond a strip of the box in which points are looked for first, in 2D
 MARGIN = 8.0
+#: points of a strip in 2D: triangles of a million at once take twice the memory of all else
+AT_ONCE = 100_000
 
 
 def delaunay(points: Points, weight: Any = None) -> Edges:
@@ -56,12 +58,24 @@ def _simplices(points: Points, size: np.ndarray) -> tuple[np.ndarray, np.ndarray
     shift = np.random.default_rng(0).uniform(-SHIFT, SHIFT, points.x.shape)*points.a
     for margin in (MARGIN*points.a, points.box.max()/2)[points.d - 2:]:
         x, owner = _with_images(points, np.minimum(margin, points.box/2))
-        simplices = Delaunay(x + shift[owner]).simplices
-        middle = x[simplices].mean(axis=1)/size
-        simplices = simplices[((middle >= -0.5) & (middle < 0.5)).all(axis=1)]  # one of each set of images
-        if points.d > 2 or _diameters(x[simplices]).max() < margin:
+        cuts = pairwise(np.linspace(-0.5, 0.5, 2 + (points.n//AT_ONCE if points.d == 2 else 0)))
+        simplices = np.concatenate([_strip(x, x + shift[owner], size, margin, *ends) for ends in cuts])
+        at = x[simplices]
+        if points.d > 2 or _diameters(at).max() < margin:
             break
-    return owner[simplices], x[simplices]
+    return owner[simplices], at
+
+
+def _strip(x: np.ndarray, shifted: np.ndarray, size: np.ndarray, margin: float, low: float,
+           high: float) -> np.ndarray:
+    """Simplices (T, d + 1) of points and images whose middles are in the box, low <= x/size_x < high."""
+    near = np.abs(x[:, 0] - (low + high)/2*size[0]) <= (high - low)/2*size[0] + margin
+    some = np.flatnonzero(near).astype(np.int32)
+    simplices = some[Delaunay(shifted[some]).simplices]
+    middle = x[np.sort(simplices, axis=1)].mean(axis=1)/size        # the same to the last bit in two strips
+    inside = (middle >= -0.5) & (middle < 0.5)      # one of each set of images
+    inside[:, 0] = (middle[:, 0] >= low) & (middle[:, 0] < high)
+    return simplices[inside.all(axis=1)]
 
 
 def _diameters(x: np.ndarray) -> np.ndarray:
@@ -102,7 +116,10 @@ def _assembled(points: Points, corner: np.ndarray, x: np.ndarray) -> Edges:
 
 def _with_images(points: Points, margin: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Positions with all images within `margin` around the box, and which point each is of."""
-    images = [points.x + shift*points.box for shift in product((-1, 0, 1), repeat=points.d)]
-    near = [(np.abs(x) < points.box/2 + margin).all(axis=1) for x in images]
-    owner = np.concatenate([np.flatnonzero(q) for q in near])
-    return np.concatenate([x[q] for x, q in zip(images, near)]), owner
+    images = []
+    for shift in product((-1, 0, 1), repeat=points.d):
+        x = points.x + shift*points.box
+        near = np.flatnonzero((np.abs(x) < points.box/2 + margin).all(axis=1)).astype(np.int32)
+        images.append((x[near], near))
+    x, owner = map(np.concatenate, zip(*images))
+    return x, owner
