@@ -16,10 +16,10 @@ from studies.build.measure import Smoothing
 from studies.build.spam import PRINTED, VARIANTS, Variant
 from studies.kit.case import Case
 from studies.rb.points import points
+from studies.rb.runs import grid as truth
 from studies.rb.runs.arithmetic import SUBJECTS, WithoutFlow
 from studies.rb.runs.grid import BoussinesqSteady, CompressibleApproach, CompressibleSteady, PypdeSteady
 from studies.rb.runs.spam import SpamRun
-from studies.rb.runs.spectral import SpectralBoussinesq, SpectralGas
 
 LAYER: dict[str, Any] = {"aspect": 2.0, "sides": Periodic()}     # Fig. 5
 BOX: dict[str, Any] = {"aspect": 1.0, "sides": Walls()}          # Fig. 6
@@ -36,8 +36,6 @@ LINE = (1500.0, 1750.0, 2000.0, 2500.0, 3000.0, 3500.0, 4200.0, 5000.0, 6000.0, 
 SEEN: tuple[tuple[type, float], ...] = (
     (Lucy, 4.0), (Lucy, 6.0), (Monaghan, 3.0), (WendlandC2, 3.0), (WendlandC4, 3.0), (WendlandC6, 3.0))
 GRIDS, COARSE = (24, 32, 48), (12, 16, 24)
-PR = (0.71, 1.0, 2.0, 7.0)                  # of the Boussinesq fluid
-FLUIDS = (2000.0, 2500.0, 3000.0, 3500.0, 5000.0, 6830.0, 10000.0)      # Ra of other gases
 
 
 def spam(ra: float, rows: int, seeds=SEEDS, variant: Variant = PRINTED, keep="", t_end=90.0, mean_from=40.0,
@@ -79,8 +77,8 @@ def quick() -> Iterator[Case]:
     for ra in (1500.0, 5000.0, 10000.0):
         yield replace(gas(ra, COARSE), smooth=(Smoothing(Lucy, 3.0, 16),))
         yield BoussinesqSteady(ra=ra, pr=2.0, sizes=COARSE)
-        yield SpectralBoussinesq(scene=RayleighBenard(ra=ra, pr=2.0), sizes=COARSE)
-        yield SpectralGas(scene=RayleighBenard(ra=ra), sizes=COARSE)
+        yield truth.SpectralBoussinesq(scene=RayleighBenard(ra=ra, pr=2.0), sizes=COARSE)
+        yield truth.SpectralGas(scene=RayleighBenard(ra=ra), sizes=COARSE)
         yield from spam(ra, 16, SEEDS[:2], t_end=60.0, mean_from=25.0, keep="all" if ra == 10000 else "")
     yield CompressibleApproach(scene=RayleighBenard(ra=1e4), rows=16)
     yield PypdeSteady(scene=RayleighBenard(ra=5000.0), sizes=COARSE)
@@ -89,7 +87,6 @@ def quick() -> Iterator[Case]:
 def paper() -> Iterator[Case]:
     """What the main figure and the verdicts on printed numbers need."""
     yield from grids()
-    yield from spectral()
     yield from layers()
     yield from squares()
     yield from others()
@@ -99,25 +96,18 @@ def grids() -> Iterator[Case]:
     """References of the layer: the lines of Fig. 5, Boussinesq, py-pde, the approach of Fig. 8."""
     for ra in LINE:
         yield gas(ra, GRIDS, keep="fields" if ra in (3e3, 5e3, 1e4) else "")
-        for pr in PR:
+        more: dict[str, Any] = {"sizes": (20, 24, 28, 32)} if ra > 2e4 else {}     # for eight digits
+        yield truth.SpectralGas(scene=RayleighBenard(ra=ra), **more)
+        for pr in (0.71, 1.0, 2.0, 7.0):
             yield BoussinesqSteady(ra=ra, pr=pr)
-    for ra, fluid in product(FLUIDS, (NU, VDW)):
+            yield truth.SpectralBoussinesq(scene=RayleighBenard(ra=ra, pr=pr), **more)
+    for ra, fluid in product((2000.0, 2500.0, 3000.0, 3500.0, 5000.0, 6830.0, 10000.0), (NU, VDW)):
         yield gas(ra, GRIDS, **fluid)
+        yield truth.SpectralGas(scene=RayleighBenard(ra=ra, **fluid))
     for ra in (5000.0, 10000.0):
         yield PypdeSteady(scene=RayleighBenard(ra=ra), sizes=(16, 24, 32, 48))
     yield CompressibleApproach(scene=RayleighBenard(ra=1e4))
     yield gas(1e4, (16, 24, 32, 48), form="paper-form", longest=3.0)    # it loses mass and never settles
-
-
-def spectral() -> Iterator[Case]:
-    """The truth of the same flows; above Ra 20 000 eight digits take more functions."""
-    for ra in LINE:
-        more: dict[str, Any] = {"sizes": (20, 24, 28, 32)} if ra > 2e4 else {}
-        yield SpectralGas(scene=RayleighBenard(ra=ra), **more)
-        for pr in PR:
-            yield SpectralBoussinesq(scene=RayleighBenard(ra=ra, pr=pr), **more)
-    for ra, fluid in product(FLUIDS, (NU, VDW)):
-        yield SpectralGas(scene=RayleighBenard(ra=ra, **fluid))
 
 
 def layers() -> Iterator[Case]:
