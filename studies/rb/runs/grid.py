@@ -165,10 +165,6 @@ class SpectralGas(Case):
     scene: RayleighBenard
     sizes: tuple[int, ...] = (16, 20, 24, 28)
 
-    @property
-    def cost(self) -> float:
-        return sum(4e-9*n**6 for n in self.sizes) + 1
-
     def laws(self) -> tuple[dict, Any]:
         """And how rows name them."""
         return {"method": "spectral-gas", "free_fall": self.scene.free_fall}, GasLaws(self.scene)
