@@ -131,15 +131,13 @@ def grid_limit(sizes: Numbers, values: Numbers) -> Measured:
 
 
 def four_grids(sizes: Numbers, values: Numbers) -> Measured:
-    """The same of four grids or more, whose values have no error: what h^6 changes, through the four finest,
-    tells how far the limit f + a h^2 + b h^4 is off. Its error is twice that, as what follows h^6 is less.
-
-    Where three are all, or another order is seen, the same as `grid_limit`.
+    """The same of four grids, if there are: what h^6 changes, through the finest of them, tells how far the
+    limit of f + a h^2 + b h^4 is off. Its error is twice that, as what follows h^6 is less. Else, or of another order, `grid_limit`.
     """
-    limit, count = grid_limit(sizes, values), len(set(sizes))
-    if count < 4 or not abs(richardson(list(values), list(sizes)).order - 2) < NEAR:
-        return limit
+    limit = grid_limit(sizes, values)
     f, h = finest(list(values), list(sizes), 4)
+    if len(f) < 4 or not abs(observed_order(f[1:], h[1:]) - 2) < NEAR:
+        return limit
     return Measured(limit.value, 2*abs(eliminate(f, h, 2.0, 4.0, 6.0) - limit.value))
 
 
