@@ -131,8 +131,8 @@ def grid_limit(sizes: Numbers, values: Numbers) -> Measured:
 
 
 def four_grids(sizes: Numbers, values: Numbers) -> Measured:
-    """The same of four grids, if there are: what h^6 changes, through the finest of them, tells how far the
-    limit of f + a h^2 + b h^4 is off. Its error is twice that, as what follows h^6 is less. Else, or of another order, `grid_limit`.
+    """The same of four grids: what h^6 changes, through the four finest, tells how far off the limit of f + a
+    h^2 + b h^4 is. Its error is twice that, as what follows is less. Of three grids, or another order: as above.
     """
     limit = grid_limit(sizes, values)
     f, h = finest(list(values), list(sizes), 4)
