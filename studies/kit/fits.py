@@ -132,7 +132,7 @@ def grid_limit(sizes: Numbers, values: Numbers) -> Measured:
 
 def four_grids(sizes: Numbers, values: Numbers) -> Measured:
     """The same of four grids: what h^6 changes, through the four finest, tells how far off the limit of f + a
-    h^2 + b h^4 is. Its error is twice that, as what follows is less. Of three grids, or another order: as above.
+    h^2 + b h^4 is. Its error is twice that, as what follows is less. With three, or another order: as above.
     """
     limit = grid_limit(sizes, values)
     f, h = finest(list(values), list(sizes), 4)
