@@ -156,6 +156,8 @@ def grids() -> Iterator[str]:
     yield f"it is {of('khp95-ke-10000', form='.6f')} (printed 0.00481"
     truth = [one("means", "ke", **SPECTRAL | {"ra": ra})(RB).value for ra in (5e3, 1e4)]
     yield f"spectral method has {truth[0]:.11f} and {truth[1]:.11f}"
+    yield f"leave out {percent('own-rb-limits-gas-ke', '.1f')} % of its K"
+    yield f"and {percent('own-rb-limits-boussinesq-nu', '.1f')} % of its Nu"
     yield f"reads {of('own-ke-10000-line')} at Ra 10 000"
     yield f"to {percent('khp95-ke-line', '.1f')} % of its largest value"
     yield f"by {percent('khp95-ra-figures')} %; the paper has it"
