@@ -77,8 +77,6 @@ def quick() -> Iterator[Case]:
     for ra in (1500.0, 5000.0, 10000.0):
         yield replace(gas(ra, COARSE), smooth=(Smoothing(Lucy, 3.0, 16),))
         yield BoussinesqSteady(ra=ra, pr=2.0, sizes=COARSE)
-        yield truth.SpectralBoussinesq(scene=RayleighBenard(ra=ra, pr=2.0), sizes=COARSE)
-        yield truth.SpectralGas(scene=RayleighBenard(ra=ra), sizes=COARSE)
         yield from spam(ra, 16, SEEDS[:2], t_end=60.0, mean_from=25.0, keep="all" if ra == 10000 else "")
     yield CompressibleApproach(scene=RayleighBenard(ra=1e4), rows=16)
     yield PypdeSteady(scene=RayleighBenard(ra=5000.0), sizes=COARSE)
