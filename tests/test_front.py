@@ -35,7 +35,7 @@ def test_numbers_have_errors_and_agree_with_the_history(convection):
     assert convection.Nu.value == pytest.approx(1.80, rel=0.1)
 
 
-@pytest.mark.parametrize("method", ["grid", "py-pde", "boussinesq"])
+@pytest.mark.parametrize("method", ["grid", "py-pde", "boussinesq", "spectral-gas"])
 def test_references_agree_by_the_same_call(convection, method):
     done = solve(RB, method, rows=16)
     assert done.K.value == pytest.approx(convection.K.value, rel=0.1)
@@ -49,7 +49,7 @@ def test_references_take_a_layer_made_of_sides_and_say_what_they_cannot():
     layer = RayleighBenard(ra=1e4, L=12.0)
     sides = {"left": Periodic(), "right": Periodic(), "bottom": Plate(T=1.5), "top": Plate(T=0.5)}
     by_hand = Domain(L=12.0, aspect=2.0, eta=layer.nu, k=layer.k, g=layer.g, **sides)
-    for name in ("boussinesq", "py-pde"):
+    for name in ("boussinesq", "py-pde", "spectral-gas"):
         assert solve(by_hand, name).K.value == pytest.approx(solve(layer, name).K.value, rel=1e-9)
     assert solve(by_hand, "linear-theory").numbers == solve(layer, "linear-theory").numbers
     with pytest.raises(ValueError, match=r"boussinesq takes a layer .*, not left = Plate\(.*\): take grid"):

@@ -2,7 +2,7 @@
 import numpy as np
 import pytest
 
-from studies.kit.fits import richardson
+from studies.kit.fits import four_grids, richardson
 
 SIZES = [20, 30, 48]    # no common ratio
 
@@ -32,6 +32,13 @@ def test_error_covers_the_true_limit_also_where_order_and_step_are_not_the_assum
 def test_only_the_three_finest_count():
     values = [3 + 5/n**2 for n in SIZES]
     assert richardson([99.0, *values], [8, *SIZES]) == richardson(values, SIZES)
+
+
+@pytest.mark.parametrize("c", [-2e3, 10.0, 2e3])
+def test_a_fourth_grid_tells_how_far_the_limit_of_three_is_off(c):
+    sizes = [16, *SIZES]
+    limit = four_grids(sizes, [3 + 5/n**2 + 70/n**4 + c/n**6 for n in sizes])
+    assert limit.err == pytest.approx(2*abs(limit.value - 3), rel=1e-3)     # of 1e-9, values have 16 digits
 
 
 def test_values_that_do_not_converge_have_their_spread_for_error():

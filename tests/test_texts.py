@@ -10,6 +10,7 @@ from studies.kit.key import ROOT
 from studies.kit.stats import Measured
 from studies.kit.store import RESULTS
 from studies.kit.table import Tables
+from studies.rb.claims.grid import SPECTRAL
 from studies.rb.tables import Point, grid, particles, points
 from studies.report.equations import with_error
 
@@ -153,6 +154,10 @@ def smooth() -> Iterator[str]:
 def grids() -> Iterator[str]:
     yield f"is {of('khp95-ke-5000', form='.7f')} at Ra 5000"
     yield f"it is {of('khp95-ke-10000', form='.6f')} (printed 0.00481"
+    truth = [one("means", "ke", **SPECTRAL | {"ra": ra})(RB).value for ra in (5e3, 1e4)]
+    yield f"spectral method has {truth[0]:.11f} and {truth[1]:.11f}"
+    yield f"leave out {percent('own-rb-limits-gas-ke', '.1f')} % of its K"
+    yield f"and {percent('own-rb-limits-boussinesq-nu', '.1f')} % of its Nu"
     yield f"reads {of('own-ke-10000-line')} at Ra 10 000"
     yield f"to {percent('khp95-ke-line', '.1f')} % of its largest value"
     yield f"by {percent('khp95-ra-figures')} %; the paper has it"

@@ -1,10 +1,10 @@
-"""Solvers that need no steps in time of ours: Newton on the Boussinesq equations, py-pde, linear theory.
+"""Solvers that need no steps in time of ours: Newton's method on two equations, py-pde, linear theory.
 
 Each takes the layer heated from below, by name or as a `Domain`, and gives parts of a `Solution`. All but
-py-pde solve the Boussinesq fluid that a gas is nearest to. In a layer of gas the adiabatic gradient g/c_P
-takes part of dT: the share s = 1 - g L/(c_P dT) is left to convection. Heat spreads at constant pressure,
-gamma times slower than k/(rho C_V). So Ra is s gamma Ra, Pr is gamma Pr, K = s K' and Nu - 1 = s (Nu' - 1) of
-its K', Nu', good to 5 % at dT = 1.
+py-pde and spectral-gas solve the Boussinesq fluid that a gas is nearest to. In a layer of gas the adiabatic
+gradient g/c_P takes part of dT: the share s = 1 - g L/(c_P dT) is left to convection. Heat spreads at
+constant pressure, gamma times slower than k/(rho C_V). So Ra is s gamma Ra, Pr is gamma Pr, K = s K' and
+Nu - 1 = s (Nu' - 1) of its K', Nu', good to 5 % at dT = 1.
 """
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -22,6 +22,8 @@ from continuum.pypde.gas import Gas
 from continuum.pypde.solve import PdeSolution
 from continuum.pypde.solve import solve as solve_pde
 from continuum.scene import RayleighBenard
+from continuum.spectral.laws import GasLaws
+from continuum.spectral.newton import steady as spectral
 from particles.integral.points import lattice
 from studies.build.scenes import Slab
 from studies.build.setting import no_still_layer
@@ -74,6 +76,17 @@ def py_pde(layer: Any) -> Parts:
     history = pd.DataFrame({"t": times, "K": done.series.ke, "Nu": done.series.nu})
     return {"numbers": numbers, "history": history, "at": of_pde(done), "dt": done.dt, "steps": done.steps,
             "cpu_s": done.cpu_s, "compile_s": done.compile_s}
+
+
+def spectral_gas(layer: Any) -> Parts:
+    """A steady state of the gas in as many waves and polynomials as the layer has rows; fields are those of
+    one half, at the points of the integrals, and their mirror image."""
+    scene = weighted(layer) if isinstance(layer, Domain) else layer
+    state = spectral(GasLaws(scene), round(scene.L))
+    (x, y), (u, v, r, T) = (state.equations.x.points[:, None], state.equations.y.points), state.at[:, 0]
+    L, T = scene.L, T + scene.T(scene.L*y)
+    return {"numbers": {"K": Measured(state.K), "Nu": Measured(state.Nu)}, "history": NO_HISTORY,
+            "at": flat([L*x, -L*x], L*y, [u, -u], v, 1 + r, T, L**2*state.equations.weights)}
 
 
 def of_pde(done: PdeSolution) -> Fields:
@@ -143,4 +156,5 @@ def linear_theory(scene: Any) -> Parts:
     return {"numbers": numbers, "history": NO_HISTORY, "at": flat(x, y, 0.0, 0.0, 1.0, T, 1.0)}
 
 
-REFERENCES: dict[str, Callable] = {"py-pde": py_pde, "boussinesq": boussinesq, "linear-theory": linear_theory}
+REFERENCES: dict[str, Callable] = {"py-pde": py_pde, "boussinesq": boussinesq, "linear-theory": linear_theory,
+                                   "spectral-gas": spectral_gas}

@@ -29,7 +29,7 @@ class Table:
     """A table by name: its columns, those (``key``) in which no two rows agree, what a row is (``about``).
 
     ``means``: column -> (meaning, unit) where these are not those of `report/columns.csv`. Of large tables,
-    above 300 kB: the file is packed (``large``), ``digits`` says which suffice (column -> such as ".4f").
+    above 400 kB: the file is packed (``large``), ``digits`` says which suffice (column -> such as ".4f").
     """
 
     name: str

@@ -16,6 +16,7 @@ from studies.build.measure import Smoothing
 from studies.build.spam import PRINTED, VARIANTS, Variant
 from studies.kit.case import Case
 from studies.rb.points import points
+from studies.rb.runs import grid as truth
 from studies.rb.runs.arithmetic import SUBJECTS, WithoutFlow
 from studies.rb.runs.grid import BoussinesqSteady, CompressibleApproach, CompressibleSteady, PypdeSteady
 from studies.rb.runs.spam import SpamRun
@@ -93,10 +94,14 @@ def grids() -> Iterator[Case]:
     """References of the layer: the lines of Fig. 5, Boussinesq, py-pde, the approach of Fig. 8."""
     for ra in LINE:
         yield gas(ra, GRIDS, keep="fields" if ra in (3e3, 5e3, 1e4) else "")
+        more: dict[str, Any] = {"sizes": (20, 24, 28, 32)} if ra > 2e4 else {}     # for eight digits
+        yield truth.SpectralGas(scene=RayleighBenard(ra=ra), **more)
         for pr in (0.71, 1.0, 2.0, 7.0):
             yield BoussinesqSteady(ra=ra, pr=pr)
+            yield truth.SpectralBoussinesq(scene=RayleighBenard(ra=ra, pr=pr), **more)
     for ra, fluid in product((2000.0, 2500.0, 3000.0, 3500.0, 5000.0, 6830.0, 10000.0), (NU, VDW)):
         yield gas(ra, GRIDS, **fluid)
+        yield truth.SpectralGas(scene=RayleighBenard(ra=ra, **fluid))
     for ra in (5000.0, 10000.0):
         yield PypdeSteady(scene=RayleighBenard(ra=ra), sizes=(16, 24, 32, 48))
     yield CompressibleApproach(scene=RayleighBenard(ra=1e4))

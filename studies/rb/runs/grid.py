@@ -1,4 +1,4 @@
-"""Grid references as cases: the compressible gas, also in py-pde, and the Boussinesq fluid."""
+"""Grid references as cases: the gas, also in py-pde, and the Boussinesq fluid; spectral ones of both."""
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -10,6 +10,8 @@ from continuum.gas.solve import Solution, run, steady_on
 from continuum.pypde import solve as pypde
 from continuum.pypde.gas import Gas
 from continuum.scene import RayleighBenard
+from continuum.spectral import newton as spectral
+from continuum.spectral.laws import BoussinesqLaws, GasLaws
 from continuum.steady import Steady, Time
 from particles.observe import Grid
 from studies.build.grid import FORMS, GridForm, beginning
@@ -19,8 +21,12 @@ from studies.kit.case import Case, Outcome, Report
 from studies.kit.timing import compile_and_run_seconds
 from studies.rb.runs import table_rows
 
+NINE = 1e-8         # relative: what nine digits of a table leave of a number
 #: columns that solutions have, too
 SAME = ("mass_drift", "converged", "dt", "steps", "cpu_s", "compile_s")
+#: the same of states without time
+AT_ONCE = {"mass_drift": 0.0, "converged": True, "dt": 0.0, "t_end": 0.0}
+NO_GAS = {"eos": "", "transport": ""}
 STILL = 1e-8        # K of a grid at rest, whose rolls would be those of round-off
 
 
@@ -122,11 +128,12 @@ class CompressibleApproach(Case):
 class BoussinesqSteady(Case):
     """The periodic pair of rolls (as one roll between planes of symmetry) in the Boussinesq fluid.
 
-    Below onset Newton's method ends at rest, and one grid tells as much as three.
+    Below onset Newton's method ends at rest, and one grid tells as much as four. States are steady to
+    round-off: the tables' digits are their error.
     """
     ra: float
     pr: float
-    sizes: tuple[int, ...] = (32, 48, 64)
+    sizes: tuple[int, ...] = (24, 32, 48, 64)
 
     @property
     def cost(self) -> float:
@@ -144,13 +151,49 @@ class BoussinesqSteady(Case):
         return Outcome({"kinetic_energy": rows})
 
     def _row(self, state: boussinesq.State) -> dict:
-        """A state that is steady to round-off."""
         seen = state.observe()
-        return {"method": "boussinesq", "variant": "mac", "eos": "", "transport": "", "sides": "periodic",
-                "ra": self.ra, "pr": self.pr, **no_particles(1.0), "mass_drift": 0.0, "converged": True,
-                "dt": 0.0, "t_end": 0.0, **one_energy(seen.K, 0.0),
-                "nu": (seen.nu_bottom + seen.nu_top)/2, "nu_err": abs(seen.nu_bottom - seen.nu_top),
+        nu = (seen.nu_bottom + seen.nu_top)/2
+        return {"method": "boussinesq", "variant": "mac", **NO_GAS, "sides": "periodic", "ra": self.ra,
+                "pr": self.pr, **no_particles(1.0), **AT_ONCE, **one_energy(seen.K, NINE*seen.K),
+                "nu": nu, "nu_err": abs(seen.nu_bottom - seen.nu_top) + NINE*nu,
                 "rolls": 2*state.rolls, "steps": len(state.changes)}
+
+
+@dataclass(frozen=True, kw_only=True)
+class SpectralGas(Case):
+    """The gas in ever more functions along each axis: a truth for grids."""
+    scene: RayleighBenard
+    sizes: tuple[int, ...] = (16, 20, 24, 28)
+
+    def laws(self) -> tuple[dict, Any]:
+        """And how rows name them."""
+        return {"method": "spectral-gas", "free_fall": self.scene.free_fall}, GasLaws(self.scene)
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        runs: list[Any] = []
+        names, laws = self.laws()
+        point = {**scene_columns(self.scene), **no_particles(1.0), **AT_ONCE, "variant": "", **names}
+        for n in self.sizes:
+            start = runs[-1][0] if runs else None
+            runs.append(compile_and_run_seconds(partial(spectral.steady, laws, n, start)))
+            report(n/self.sizes[-1])
+        last, before = runs[-1][0], runs[-2][0]
+        rows = [{**point, **self._row(state, before if state is last else last), "cpu_s": cpu_s,
+                 "compile_s": compile_s} for state, compile_s, cpu_s in runs]
+        return Outcome({"kinetic_energy": rows})
+
+    def _row(self, state: spectral.SpectralState, other: spectral.SpectralState) -> dict:
+        """The distance to another state is the error."""
+        return {**one_energy(state.K, abs(state.K - other.K)), "nu": state.Nu,
+                "nu_err": abs(state.Nu - other.Nu), "resolution": state.equations.n,
+                "rolls": 2*(state.K > STILL), "steps": len(state.changes)}
+
+
+class SpectralBoussinesq(SpectralGas):
+    """The Boussinesq fluid at the Ra and Pr of a scene."""
+
+    def laws(self) -> tuple[dict, Any]:
+        return {"method": "spectral-boussinesq", **NO_GAS}, BoussinesqLaws(self.scene.ra, self.scene.pr)
 
 
 @dataclass(frozen=True, kw_only=True)

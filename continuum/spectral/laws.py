@@ -1,0 +1,69 @@
+"""Conservation laws at a point: d(stored)/dt = source - d(flux_x)/dx - d(flux_y)/dy.
+
+They are those of momentum along x and y, mass, energy. Lengths are in heights of the layer. Fields come as
+(4, 3, ...): v_x, v_y, density or pressure, temperature, as deviations from the motionless state, each with
+its slopes along x and y. The formulas are analytic: steps along the imaginary axis give exact slopes.
+"""
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from continuum.fluid import conductivity, energy, pressure, stress, viscosity
+
+
+@dataclass(frozen=True)
+class GasLaws:
+    """The compressible gas of a layer, a `RayleighBenard` or alike, its units of velocity and temperature."""
+    scene: Any
+
+    @property
+    def width(self) -> float:
+        return self.scene.aspect
+
+    @property
+    def units(self) -> tuple[float, float, float]:
+        """Velocity of free fall, dT, heat that the motionless layer conducts."""
+        return self.scene.free_fall, self.scene.dT, self.scene.k*self.scene.dT/self.scene.L
+
+    def terms(self, at: np.ndarray, y: np.ndarray) -> np.ndarray:
+        """(law, term, ...): source, flux_x, flux_y, stored, of momentum, mass, total energy."""
+        scene, (u, u_x, u_y), (v, v_x, v_y), (warm, T_x, T_y) = self.scene, *at[[0, 1, 3]]
+        rho, T, weight = 1 + at[2, 0], warm + scene.T(scene.L*y), scene.g*scene.L
+        e, k = energy(scene.eos, rho, T), conductivity(scene.law, rho, T)/scene.L
+        P, eta = pressure(scene.eos, rho, e), viscosity(scene.law, rho, T)/scene.L
+        sxx, sxy, syy = stress(eta, 0.0, u_x, v_x, u_y, v_y)
+        total, steep = rho*(e + (u*u + v*v)/2 + weight*y), T_y - scene.dT
+        return stacked([
+            [0, rho*u*u + P - sxx, rho*u*v - sxy, rho*u],
+            [-rho*weight, rho*u*v - sxy, rho*v*v + P - syy, rho*v],
+            [0, rho*u, rho*v, rho],
+            [0, (total + P - sxx)*u - sxy*v - k*T_x, (total + P - syy)*v - sxy*u - k*steep, total]])
+
+
+@dataclass(frozen=True)
+class BoussinesqLaws:
+    """The Boussinesq fluid in free-fall units; the third field is the pressure, the fourth law that of T."""
+    ra: float
+    pr: float
+    width: float = 2.0
+
+    @property
+    def units(self) -> tuple[float, float, float]:
+        """As of `GasLaws`; the last is the thermal diffusivity."""
+        return 1.0, 1.0, float((self.pr*self.ra)**-0.5)
+
+    def terms(self, at: np.ndarray, y: np.ndarray) -> np.ndarray:
+        """(law, term, ...): source, flux_x, flux_y, stored."""
+        (u, u_x, u_y), (v, v_x, v_y), (p, _, _), (warm, T_x, T_y) = at
+        nu, kappa, T = float((self.pr/self.ra)**0.5), self.units[2], warm - y
+        return stacked([
+            [0, u*u + p - nu*u_x, u*v - nu*u_y, u],
+            [warm, u*v - nu*v_x, v*v + p - nu*v_y, v],
+            [0, u, v, 0],
+            [0, u*T - kappa*T_x, v*T - kappa*(T_y - 1), T]])
+
+
+def stacked(laws: list) -> np.ndarray:
+    """One array of terms, some of which are numbers."""
+    return np.array([np.broadcast_arrays(*law, laws[0][1])[:-1] for law in laws])

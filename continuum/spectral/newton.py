@@ -1,0 +1,141 @@
+"""Steady states by Galerkin's method for `laws` and Newton's method with exact slopes.
+
+Each law is multiplied by the functions of its own field and integrated. Its fluxes go with the slopes of the
+functions, so that nothing is differentiated twice, and the law of all mass is met by any state: in its place
+the mean of density or pressure is kept, by leaving its function out.
+"""
+from collections.abc import Callable
+from functools import partial
+from typing import Any, NamedTuple
+
+import numpy as np
+from scipy.linalg import solve
+from scipy.optimize import brentq
+
+from continuum.spectral.modes import RHO, VX, VY, T, along_x, along_y
+from continuum.steady import largest, newton
+
+TINY = 1e-30        # step along the imaginary axis: no difference is taken, so there is no round-off
+RISING = 0.2        # velocity and warmth, in units of the laws, of the stream to start from
+RELAX = 0.1         # implicit steps take RELAX/(largest rate): three times as much or as little serve, too
+MOST = 48           # functions along an axis: slopes are then 0.7 GB, and 28 have eight digits at Ra 20 000
+
+
+class Galerkin:
+    """Laws as a function of q, the amplitudes (4 fields, n waves, n polynomials) less those that are zero."""
+
+    def __init__(self, laws: Any, n: int):
+        if not 4 <= n <= MOST:
+            raise ValueError(f"a spectral state takes 4 to {MOST} functions along an axis, got {n}: 24 do "
+                             "for eight digits up to Ra 10 000")
+        self.laws, self.n = laws, n
+        self.x, self.y = along_x(n, laws.width), along_y(n)
+        self.weights = np.outer(self.x.weights, self.y.weights)
+        self.kept = np.ones((4, n, n), bool)
+        self.kept[VX, 0] = False            # sin(0)
+        self.kept[RHO, 0, 0] = False        # the mean
+
+    def amplitudes(self, q: np.ndarray) -> np.ndarray:
+        """All (4, n, n)."""
+        every = np.zeros(self.kept.shape)
+        every[self.kept] = q
+        return every
+
+    def kinds(self, f: int) -> list[tuple[np.ndarray, np.ndarray]]:
+        """Functions of x and of y whose products make a field, its slope along x, along y."""
+        (X, X1), (Y, Y1) = self.x.functions[:, f], self.y.functions[:, f]
+        return [(X, Y), (X1, Y), (X, Y1)]
+
+    def at(self, q: np.ndarray) -> np.ndarray:
+        """Fields and their slopes at the points, (4, 3, points in x, in y)."""
+        return np.array([[X@a@Y.T for X, Y in self.kinds(f)] for f, a in enumerate(self.amplitudes(q))])
+
+    def terms(self, at: np.ndarray) -> np.ndarray:
+        """Of the laws at the points, (law, term, points in x, in y)."""
+        return self.laws.terms(at, self.y.points)
+
+    def rates(self, q: np.ndarray) -> np.ndarray:
+        """Integrals of each function with the rate of change of what its law stores."""
+        every = [sum(X.T@(self.weights*term)@Y for (X, Y), term in zip(self.kinds(f), law))
+                 for f, law in enumerate(self.terms(self.at(q)))]
+        return np.array(every)[self.kept]
+
+    def slopes(self, q: np.ndarray, per_dt: float = 0.0) -> np.ndarray:
+        """Of (stored)/dt - rates, (unknowns, unknowns)."""
+        at, n, kept = self.at(q), self.n, self.kept.ravel()
+        every = np.zeros((4, n*n, 4, n*n))
+        for b, t in np.ndindex(4, 3):
+            moved = at.astype(complex)
+            moved[b, t] += 1j*TINY
+            terms = self.terms(moved).imag/TINY
+            laws = -terms[:, :3]
+            laws[:, 0] += per_dt*terms[:, 3]
+            for a, s in np.argwhere(laws.any(axis=(2, 3))):
+                every[a, :, b] += products(self.kinds(a)[s], self.weights*laws[a, s], self.kinds(b)[t])
+        return every.reshape(kept.size, kept.size)[np.ix_(kept, kept)]
+
+
+def products(test: tuple, c: np.ndarray, trial: tuple) -> np.ndarray:
+    """Sums over all points of U_k W_m c X_l Y_n, as a matrix (k m, l n): first over y, then over x."""
+    (U, W), (X, Y), n = test, trial, test[0].shape[1]
+    over_y = c@(W[:, :, None]*Y[:, None, :]).reshape(len(W), n*n)
+    over_x = (U[:, :, None]*X[:, None, :]).reshape(len(U), n*n).T@over_y
+    return over_x.reshape(n, n, n, n).swapaxes(1, 2).reshape(n*n, n*n)
+
+
+class SpectralState(NamedTuple):
+    """A steady state: its equations, amplitudes, largest changes in Newton's steps."""
+    equations: Galerkin
+    q: np.ndarray
+    changes: tuple[float, ...]
+
+    @property
+    def at(self) -> np.ndarray:
+        """Fields and their slopes at the points, (4, 3, points in x, in y)."""
+        return self.equations.at(self.q)
+
+    @property
+    def K(self) -> float:
+        """Kinetic energy per mass; the mean density is 1."""
+        (u, v, *_), (momentum_x, momentum_y, *_) = self.at[:, 0], self.equations.terms(self.at)[:, 3]
+        return float(np.average(momentum_x*u + momentum_y*v, weights=self.equations.weights)/2)
+
+    @property
+    def Nu(self) -> float:
+        """Heat that passes upwards, on average over the volume, over what conduction alone would carry."""
+        up = self.equations.terms(self.at)[T, 2]
+        return float(np.average(up, weights=self.equations.weights)/self.equations.laws.units[2])
+
+
+def steady(laws: Any, n: int, start: SpectralState | None = None) -> SpectralState:
+    """The steady state on n waves and n polynomials that a start leads to, of any n and numbers of the laws;
+    by default warm streams that rise at x = 0 and wherever two rolls as wide as high have passed.
+
+    Implicit steps lengthen as rates fall and become Newton's: the state need not be stable. At rest below
+    onset. Raises ValueError: n. NewtonFailed: no convergence.
+    """
+    equations, every = Galerkin(laws, n), np.zeros((4, n, n))
+    if start is None:
+        pairs = max(1, round(laws.width/2))
+        every[[VY, T], pairs, 0] = RISING*np.array(laws.units[:2])
+    else:
+        both = min(n, start.equations.n)
+        every[:, :both, :both] = start.equations.amplitudes(start.q)[:, :both, :both]
+    return SpectralState(equations, *newton(every[equations.kept], partial(step, equations),
+                                            f"{laws}, {n} functions"))
+
+
+def step(equations: Galerkin, q: np.ndarray) -> np.ndarray:
+    """The change of q in an implicit step."""
+    rates = equations.rates(q)
+    return solve(equations.slopes(q, largest(rates)/RELAX), rates, overwrite_a=True)
+
+
+def onset(laws_at: Callable[[float], Any], n: int, low: float, high: float) -> float:
+    """The Ra, between two, at which a pair of rolls in the box neither grows nor decays: there the slopes of
+    the state at rest are singular, and what a push changes in the first rising stream changes its sign."""
+    def stiffness(ra: float) -> float:
+        slopes = Galerkin(laws_at(ra), n).slopes(np.zeros(4*n*n - n - 1))
+        stream = n*n        # place of the first stream that rises: after n (n - 1) of v_x and n of v_y
+        return float(1/np.linalg.inv(slopes)[stream, stream])
+    return float(brentq(stiffness, low, high, xtol=1e-9))
