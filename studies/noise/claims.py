@@ -74,7 +74,8 @@ LONG_WAVES = (
 FORMULA = "kappa = 315 k_B nu/(2 pi rho C_v r_ct^5)/Pr"
 #: of particles with energies of their own
 THERMAL = (
-    Claim(id="espanol-edpd-energy", source="Espanol 1997", at_most=1e-12, because=ROUND_OFF,
+    Claim(id="espanol-edpd-energy", source="Espanol 1997", at_most=1e-12,
+          because="round-off of 10 000 steps",
           printed="invested in raising the internal energy of the particles",
           value=one("shared", "drift", err="0", a=0),
           statement="what friction takes goes into internal energies: largest change of the total, relative, "
@@ -86,7 +87,7 @@ THERMAL = (
       for name, a, words in (("", 0, "without repulsion"), ("-repulsion", 25, "a = 25"))),
     Claim(id="avalos-edpd-variance", source="Avalos & Mackie 1997", expect=1, within=0.05,
           value=farthest("shared", "variance"), after="a shorter run had been seen",
-          because="5 %: steps of 0.02 add half of what conduction relaxes in one",
+          because="5 %: steps of 0.02 add half of the 4 % that conduction relaxes in one",
           statement="internal energies are spread as e^C exp(-e/T), C = 50: their variance over that, a = 0 "
                     "and 25"),
     Claim(id="li-edpd-conduction", source="Li et al. 2014, Eq. 15", printed=FORMULA, expect=1, within=0.05,
