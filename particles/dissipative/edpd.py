@@ -10,7 +10,7 @@ al. 2014, whose k_ij a pair's exchange does not change. Units: k_B, masses and t
 """
 from dataclasses import dataclass, replace
 from math import inf
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -88,6 +88,7 @@ class Edpd(Dpd):
 
 class Exchanges(Forces):
     """Pair sums that exchange energy, too."""
+    method: Edpd
 
     def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
         i = int(np.argmin(state[-1]))

@@ -1,7 +1,18 @@
 """What RR98 says of noise and of its steps, judged    [RR98 Eqs 20-25, 40-44, Sec. III B]"""
 from typing import Any
 
-from studies.kit.ask import Value, farthest, farthest_per, first, largest, largest_per, one, over_seeds, power, spread
+from studies.kit.ask import (
+    Value,
+    farthest,
+    farthest_per,
+    first,
+    largest,
+    largest_per,
+    one,
+    over_seeds,
+    power,
+    spread,
+)
 from studies.kit.claim import Claim
 
 MOMENTA = ("stress", "friction", "stress+friction")
@@ -82,8 +93,8 @@ THERMAL = (
                     "10 000 steps, without repulsion"),
     *(Claim(id=f"avalos-edpd-temperature{name}", source="Avalos & Mackie 1997", expect=1, within=0.01,
             because=PERCENT, value=one("shared", "ratio", a=a),
-            statement=f"velocities and internal energies come to one temperature: kT over 1/<1/T_i>, {words}, "
-                      "dt = 0.02", after="a shorter run had been seen")
+            statement="velocities and internal energies come to one temperature: kT over 1/<1/T_i>, "
+                      f"{words}, dt = 0.02", after="a shorter run had been seen")
       for name, a, words in (("", 0, "without repulsion"), ("-repulsion", 25, "a = 25"))),
     Claim(id="avalos-edpd-variance", source="Avalos & Mackie 1997", expect=1, within=0.05,
           value=farthest("shared", "variance"), after="a shorter run had been seen",

@@ -13,7 +13,7 @@ from particles.dissipative.pairs3d import Uniform
 from particles.run import Plan, run
 from studies.kit import fits
 from studies.kit.case import Case, Outcome, Report
-from studies.kit.stats import Measured, mean, with_errors
+from studies.kit.stats import mean, with_errors
 from studies.noise.dissipative import RHO
 
 BOX = (12.0, 3.0, 3.0)
@@ -28,7 +28,7 @@ def kappa_of(diffusivity: float, C: float, rho: float = RHO) -> float:
 
 @dataclass(frozen=True, kw_only=True)
 class Shared(Case):
-    """One fluid that starts with unlike temperatures of halves, and is left alone; means of its later half."""
+    """A fluid that starts with halves of unlike temperature and is left alone; means of its later half."""
     a: float
     dt: float
     time: float = 200.0
@@ -52,7 +52,8 @@ class Shared(Case):
         kinetic, internal, variance = late
         means = with_errors(kinetic=mean(kinetic), internal=mean(internal), ratio=mean(kinetic/internal),
                             variance=mean(variance*(FEW + 1)))
-        return Outcome({"shared": [{"a": self.a, "dt": self.dt, "n": start.shape[1], "drift": drift, **means}]})
+        row = {"a": self.a, "dt": self.dt, "n": start.shape[1], "drift": drift, **means}
+        return Outcome({"shared": [row]})
 
 
 def energy(sums, state: np.ndarray) -> float:
@@ -72,7 +73,7 @@ def relative_variance(sums, state: np.ndarray) -> float:
 
 @dataclass(frozen=True, kw_only=True)
 class Conduction(Case):
-    """A wave of temperature along x that decays; the diffusivity that its decay shows beside the given one."""
+    """A wave of temperature along x; the diffusivity that its decay shows beside the given one."""
     rho: float
     a: float
     given: float

@@ -106,13 +106,14 @@ def grown() -> Iterator[Claim]:
     yield claim(id="zhu-joint-convection", at_most=0.02, evidence="rb/convergence.png",
                 because="2 %, as vortices without walls come to with 200 rows",
                 value=last("errors", "abs(error)", by="resolution", err="error_err", **joint()),
-                statement="smooth particles converge if the range grows as rows^(1/2): |error of Kg| with the "
-                          "most rows that were run, Wendland C2, images at rest, Ra 10 000",
+                statement="smooth particles converge if the range grows as rows^(1/2): |error of Kg| with "
+                          "the most rows that were run, Wendland C2, images at rest, Ra 10 000",
                 after="vortices had been seen to converge")
     yield claim(id="own-joint-power", at_most=-0.5, because="slip by a part of the range has this power",
-                value=power("errors", "abs(error)", "resolution", "resolution > 45", err="error_err", **joint()),
+                value=power("errors", "abs(error)", "resolution", "resolution > 45", err="error_err",
+                            **joint()),
                 after="50 and 70 rows had been seen",
-                statement="from 50 rows on that error falls as slip at the images does: its power in the rows")
+                statement="from 50 rows on that error falls as slip at images does: its power in rows")
     yield claim(id="own-joint-walls", at_most=0.5, because="half of it goes: slip is the larger part",
                 value=one("errors", "abs(error)", err="error_err", resolution=70,
                           **joint("wendland-c2-walls-odd-joint"))
@@ -121,9 +122,10 @@ def grown() -> Iterator[Claim]:
                 statement="slip at the images makes the most of that error: |error of Kg| between odd images "
                           "over that between images at rest, 70 rows")
     yield claim(id="own-joint-noise", at_most=0.1, because="a tenth of the flow's",
-                value=one("means", "ke_fluctuation", err="0", **particles(1e4, 50, "printed-joint"))/limit(1e4),
+                value=one("means", "ke_fluctuation", err="0", **particles(1e4, 50, "printed-joint"))
+                / limit(1e4),
                 after="ranges of 4 and 6 spacings had been seen",
-                statement="Lucy's weight may take part: energy of noise over the grid's K, h = 4.2 a, 50 rows")
+                statement="Lucy's weight may take part: energy of noise over the grid's K, 50 rows")
 
 
 def figure_points() -> Iterator[Claim]:
