@@ -1,11 +1,13 @@
 """Dissipative particles: the slow twin, momentum, threads, restarts, temperatures."""
 import itertools
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from crowd import goes_on_bitwise
 
 from particles.dissipative.dpd import Dpd
+from particles.dissipative.edpd import Edpd
 from particles.dissipative.integrators import (
     GrootWarren,
     GrootWarren65,
@@ -25,6 +27,7 @@ from particles.integrators import TwoStep
 from particles.noise import uniform_of_pair
 from particles.run import Plan, Run, run
 from particles.threads import Threads
+from studies.noise.thermal import energy, internal_temperature, relative_variance
 
 INTEGRATORS = (TwoStep, GrootWarren, GrootWarren65, VelocityVerlet, Shardlow, KickDriftFrictionDriftKick)
 BOXES = ((5.0, 4.0), (3.5, 3.0, 4.0))
@@ -187,3 +190,41 @@ def test_collapsed_particles_are_an_error():
     with pytest.raises(FloatingPointError,
                        match=r"neighbours within 1\.3 of each particle: they have collapsed"):
         run(method, state, Plan(dt=0.02, steps=1))
+
+
+WARM = {"C": 40.0, "kappa": 0.02}
+
+
+def unlike(method) -> np.ndarray:
+    """A start of which one half is three times as hot."""
+    state = method.random_start(3.0)
+    state[-1] *= np.where(state[0] > 0, 1.5, 0.5)
+    return state
+
+
+@pytest.mark.parametrize("box", BOXES)
+def test_friction_noise_and_conduction_keep_energy_and_momentum(box):
+    """To round-off of sums over some forty particles, 200 steps."""
+    method = Edpd(box=box, a=0.0, **WARM)
+    series = run(method, unlike(method), Plan(dt=0.02, steps=200, every=20, series={
+        "energy": energy, "momentum": momentum})).series
+    assert np.ptp(series["energy"]) < 1e-13*series["energy"][0] and max(series["momentum"]) < 1e-14
+
+
+def test_kinetic_and_internal_temperatures_become_one():
+    """1/T = <1/T_i>, <e^2>/<e>^2 - 1 = 1/(C + 1), within five times what 60 records of 648 scatter by."""
+    method = Edpd(box=(6.0, 6.0, 6.0), a=0.0, **WARM)
+    plan = Plan(dt=0.02, steps=1500, every=20, series={"v": kinetic_temperature, "e": internal_temperature,
+                                                        "var": relative_variance})
+    kinetic, internal, variance = (np.mean(x[15:]) for x in run(method, unlike(method), plan).series.values())
+    assert kinetic == pytest.approx(internal, rel=0.02)
+    assert variance*(method.C + 1) == pytest.approx(1, rel=0.05)
+
+
+def test_energies_go_on_over_restarts_and_are_refused(tmp_path):
+    method = Edpd(box=(4.0, 4.0, 4.0), **WARM)
+    goes_on_bitwise(method, unlike(method), 0.02, tmp_path)
+    with pytest.raises(ValueError, match="C must be positive, kappa zero or positive, got 0"):
+        Edpd(box=(4.0, 4.0), C=0.0)
+    with pytest.raises(ValueError, match=r"dt = 0\.02 is above the stability limit"):
+        run(replace(method, kappa=1.0), unlike(method), Plan(dt=0.02, steps=1))

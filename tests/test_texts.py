@@ -140,6 +140,11 @@ def smooth() -> Iterator[str]:
     yield f"within {100*(1 - CLAIMS.loc[foretold].measured):.0f} % with 25 to 100 rows"
     joint = CLAIMS.loc["own-joint-limit"]
     yield f"{said(Measured(joint.measured - 1, joint.err))} % off with 200 rows"
+    grown, odd = (of_rows(f"wendland-c2-{name}joint", (25, 35, 50, 70), "Kg") for name in ("", "walls-odd-"))
+    yield f"Kg is {all_of(grown)} % off with 25, 35, 50, 70 rows"
+    yield f"slips by {of('own-joint-slip')} of its range"
+    yield f"it is {all_of(odd[2:])} % off with 50 and 70 rows"
+    yield f"noise has {of('own-joint-noise', form='.2f')} of the energy of the flow with 50 rows"
     grows = one("critical_ra", "value", err="err", method="compressible", way="run")(Folder("onset"))
     yield f"above Ra {onsets()} with 16, 25, 35, 50 rows; on the grid they grow above {said(grows, 1)}"
     rows = [error(particles(1e4, n, "printed-fixed-rows"), "Kg") for n in (50, 25)]
@@ -242,6 +247,13 @@ def noises() -> Iterator[str]:
     yield f"The pressure is {of('allen-tildesley-dpd-pressure-asked')}, printed 23.64"
 
 
+def energies() -> Iterator[str]:
+    temperature = CLAIMS.loc["avalos-edpd-temperature"]
+    yield f"{said(Measured(temperature.measured - 1, temperature.err))} % apart"
+    yield f"{of('li-edpd-conduction')} times the printed one"
+    yield f"with 3 it is {percent('bonet-avalos-edpd-few')} % less"
+
+
 def breaks() -> Iterator[str]:
     yield f"freezes at P = {frozen('Lucy')} (Lucy) and {frozen('Monaghan')} (Monaghan)"
     rule = "khp95-hard-freezing-melting"
@@ -291,6 +303,8 @@ def front() -> Iterator[str]:
     yield f"`grid` takes {vortex[1]/vortex[0]:.1f} times as long | {vortex[0]:.3f} s"
     yield f"| {digits('fixed-jittered-plates', [50]).strip('-')} % low"
     yield f"| {-100*error(particles(1e4, 50), 'Kg').value:.0f} % low"
+    grown = error(particles(1e4, 70, "wendland-c2-joint"), "Kg").value
+    yield f"slip at the plates leaves K {100*grown:.0f} % too high with 70 rows"
 
 
 def counts() -> Iterator[str]:
@@ -300,7 +314,7 @@ def counts() -> Iterator[str]:
 
 
 TEXTS = {"README.md": (front,), "results/README.md": (counts,),
-         "results/findings.md": (smooth, grids, edges, convection, costs, noises, breaks, choice)}
+         "results/findings.md": (smooth, grids, edges, convection, costs, noises, energies, breaks, choice)}
 #: a number with its error, as in 17.5(15)
 ERROR = r"[-+]?\d[\d.]*\(\d+\)"
 #: that no row has: the example of how they are written, an error that misses its level, ranges of variants

@@ -140,7 +140,7 @@ class Forces(Sums):
             now.state[:], now.ids[:], self.images.anchor = now.state[:, order], now.ids[order], None
         if now.step == 0:
             self._sum(Force(), self.method.law(dt), self.method.noise, 0, now.state[:d], now.state[d:2*d],
-                      now.state[2*d:])
+                      now.state[2*d:3*d])
 
     def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
         """Every finite state is valid."""

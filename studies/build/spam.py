@@ -114,11 +114,19 @@ VARIANTS = {v.name: v for v in (
     Variant("less-static-90", fraction=0.9),
     Variant("direct-less-static-90", transport=Direct, fraction=0.9),
     Variant("wendland-c2", weight=WendlandC2),
+    Variant("wendland-c2-walls-odd", weight=WendlandC2, walls=images_odd),
     Variant("wendland-c4", weight=WendlandC4),
     Variant("wendland-c6", weight=WendlandC6),
     Variant("range-4", h=4.0),
     Variant("range-6", h=6.0),
 )}
+JOINT = "-joint"
+
+
+def variant_of(name: str, rows: float) -> Variant:
+    """`-joint` in its name: the range grows as rows^(1/2)    [Zhu, Hernquist & Li 2015]"""
+    usual = VARIANTS[name.removesuffix(JOINT)]
+    return usual._replace(name=name, h=usual.h*(rows/25)**0.5) if name.endswith(JOINT) else usual
 
 
 def method(scene: Any, variant: Variant) -> Spam:

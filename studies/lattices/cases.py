@@ -141,6 +141,8 @@ def ranges() -> Iterator[Stirred]:
         yield Stirred(variant=fixed, rows=rows, seed=seed, time=time)
         if rows > 25:
             yield Stirred(variant=growing(rows), rows=rows, seed=seed, time=time)
+            thin = growing(rows)._replace(fraction=0.9)
+            yield Stirred(variant=thin, mode=PLATES, rows=rows, seed=seed, time=4.0)
     yield Stirred(variant=growing(200), rows=200, time=2.5)
 
 

@@ -180,7 +180,7 @@ def gain(b: float, ra: float) -> float:
 
 def slips(driven: pd.DataFrame) -> dict[str, Measured]:
     """Slip length in spacings by what is behind the plates; images that turn v, by definition none."""
-    plates = driven.query("mode == 'plates'")
+    plates = driven.query("mode == 'plates' and h == 3")
     return {walls: combine([(b, 0.0) for b in runs["slip"]]) for walls, runs in groups(plates, "walls")}
 
 

@@ -24,6 +24,7 @@ from studies.noise.dissipative import AtRest, Fluid, LongRun
 from studies.noise.partners import Formula, Partnership
 from studies.noise.printed_noise import Capacity, MovingSteps, PrintedWaves, Steps
 from studies.noise.sampling import Nonlinear
+from studies.noise.thermal import Conduction, Shared
 
 KINDS = ("lattice", "jittered-0.1", "jittered-0.3", "random")
 DT = (0.01, 0.02, 0.05, 0.1, 0.2, 0.4, 0.8)
@@ -41,6 +42,7 @@ FORMULAS = {
 GOOD = (GrootWarren, GrootWarren65, VelocityVerlet, Shardlow, KickDriftFrictionDriftKick)
 LIQUID = (0.01, 0.02, 0.03, 0.04, 0.06, 0.08)
 HUNDRED = (100/3)**(1/3)                   # side of a box of the 100 particles that print has
+MANUAL = 15.8       # particles in rc^3 of the example in the manual of LAMMPS, 4 at rc = 1.58, A = 18.75
 LONG = 12_000       # steps of a run: its error of kT over dt is what counts, which falls as dt grows
 
 
@@ -57,7 +59,8 @@ def quick() -> list[Case]:
         Nonlinear(counts=(5, 5), share=0.1, k=1e-3, time=115.0),
         *(Capacity(C=20.0, corrected=one, steps=400) for one in (True, False)),
         *temperatures((0.02, 0.04, 0.06), side=5.0, steps=1000),
-        LongRun(integrator=Shardlow, side=4.0, time=20.0)]
+        LongRun(integrator=Shardlow, side=4.0, time=20.0),
+        *thermal(densities=(3.0,), seeds=(1,), time=20.0)]
 
 
 def paper() -> list[Case]:
@@ -71,7 +74,7 @@ def paper() -> list[Case]:
         AtRest(integrator=Shardlow, dt=0.01, side=10.0, time=120.0),
         AtRest(integrator=TwoStep, dt=0.01, side=10.0, time=300.0),
         AtRest(integrator=Shardlow, side=HUNDRED, time=4000.0),
-        *long_runs()]
+        *long_runs(), *thermal(densities=(3.0, MANUAL), seeds=(1, 2, 3, 4), time=200.0)]
 
 
 def formulas() -> Iterator[Case]:
@@ -115,6 +118,13 @@ def long_runs() -> Iterator[Fluid]:
         yield LongRun(integrator=integrator, time=time)
 
 
+def thermal(densities: tuple[float, ...], seeds: tuple[int, ...], time: float) -> Iterator[Case]:
+    """Energies of their own: unlike temperatures, waves at conductivities far above what motion carries."""
+    yield from (Shared(a=a, dt=0.02, time=time) for a in (0.0, 25.0))
+    for rho, seed in product(densities, seeds):
+        yield Conduction(rho=rho, a=25.0 if rho < MANUAL else 29.6, given=10.0, seed=seed)
+
+
 # --- tables -------------------------------------------------------------------------------------
 
 #: dissipative particles have units of their own, mass, rc and kT of one
@@ -151,4 +161,17 @@ TABLES = (
              about="A steady state of dissipative particles at one step."),
     Table.of("long", "integrator side dt", MEANS,
              means=HOT | {"P": ("pressure, with rho kT as it is asked for", "kT/rc^3")},
-             about="A long run of dissipative particles at the usual step."))
+             about="A long run of dissipative particles at the usual step."),
+    Table.of("shared", "a dt", "n drift kinetic kinetic_err internal internal_err ratio ratio_err variance "
+                               "variance_err",
+             about="Dissipative particles with energies of their own, at first of two temperatures.",
+             means=HOT | {"a": ("repulsion", "kT/rc"), "internal": ("1/<1/T_i>", "kT"),
+                          "drift": ("largest change of kinetic and internal energy, relative", ""),
+                          "kinetic": ("kT from velocities", "kT"), "ratio": ("kinetic over internal", ""),
+                          "variance": ("variance of energies over that of e^C exp(-e/T)", "")}),
+    Table.of("conduction", "rho a given seed", "n diffusivity",
+             about="A wave of temperature of such particles that decays.",
+             means={"rho": ("particles in rc^3", ""), "a": ("repulsion", "kT/rc"),
+                    "n": ("number of particles", ""),
+                    "given": ("diffusivity of temperature by the printed formula", "rc (kT/m)^(1/2)"),
+                    "diffusivity": ("the same from the decay", "rc (kT/m)^(1/2)")}))

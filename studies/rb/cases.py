@@ -13,7 +13,7 @@ from continuum.scene import Periodic, RayleighBenard, Walls
 from particles.weights import Lucy, Monaghan, WendlandC2, WendlandC4, WendlandC6
 from studies.build.grid import FORMS
 from studies.build.measure import Smoothing
-from studies.build.spam import PRINTED, VARIANTS, Variant
+from studies.build.spam import PRINTED, VARIANTS, Variant, variant_of
 from studies.kit.case import Case
 from studies.rb.points import points
 from studies.rb.runs import grid as truth
@@ -35,6 +35,8 @@ LINE = (1500.0, 1750.0, 2000.0, 2500.0, 3000.0, 3500.0, 4200.0, 5000.0, 6000.0, 
 #: weights and ranges through which the grid's flow is seen, too; one more runs these grids again
 SEEN: tuple[tuple[type, float], ...] = (
     (Lucy, 4.0), (Lucy, 6.0), (Monaghan, 3.0), (WendlandC2, 3.0), (WendlandC4, 3.0), (WendlandC6, 3.0))
+#: ranges that grow, and up to which rows: Lucy's weight makes noise
+GROWING = {"wendland-c2-joint": 100, "wendland-c2-walls-odd-joint": 70, "printed-joint": 50}
 GRIDS, COARSE = (24, 32, 48), (12, 16, 24)
 
 
@@ -64,6 +66,10 @@ def seen_by(scene: RayleighBenard) -> Iterator[Smoothing]:
     if scene.ra in (3e3, 5e3, 1e4) and not in_box:
         for (weight, h), rows in product(SEEN, (16, 25, 50)):
             yield Smoothing(weight, h, rows)
+    if scene == RayleighBenard(ra=1e4, **LAYER):
+        for name, rows in product(("wendland-c2-joint", "printed-joint"), (35, 50, 70, 100)):
+            view = variant_of(name, rows)
+            yield Smoothing(view.weight, view.h, rows)
 
 
 def cases(size: str) -> list[Case]:
@@ -173,9 +179,18 @@ def more() -> Iterator[Case]:
         yield from spam(5e3, 50, variant=VARIANTS[name])
 
 
+def joint() -> Iterator[Case]:
+    """Ranges that grow as rows^(1/2); 200 rows would take ten times the seconds of 100."""
+    for (name, most), rows in product(GROWING.items(), (25, 35, 50, 70, 100)):
+        if rows <= most:
+            seeds = SEEDS[:2] if rows < 100 else SEEDS[:1]
+            yield from spam(1e4, rows, seeds, variant=variant_of(name, rows), keep="history")
+
+
 def fine() -> Iterator[Case]:
     """Every variant at two sizes (of pressure at two Ra), finer particles, higher Ra, long grids."""
-    for name in sorted(set(VARIANTS) - {"printed", "printed-half-step", "printed-from-flow"}):
+    elsewhere = {"printed", "printed-half-step", "printed-from-flow", "wendland-c2-walls-odd"}
+    for name in sorted(set(VARIANTS) - elsewhere):
         variant = VARIANTS[name]
         yield from spam(1e4, 25, variant=variant)
         if name != "printed-fixed-rows":
@@ -185,6 +200,7 @@ def fine() -> Iterator[Case]:
     yield from checks()
     yield from changed(5e3)
     yield from more()
+    yield from joint()
     for ra, rows in product((1500.0, 2500.0, 20000.0), (25, 35)):
         yield from spam(ra, rows)
     for ra in (2500.0, 10000.0):

@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from studies.build.names import one_energy
-from studies.build.spam import VARIANTS
+from studies.build.spam import variant_of
 from studies.kit import fits
 from studies.kit.stats import Measured, combine
 from studies.kit.table import Rows, Tables
@@ -177,9 +177,10 @@ def with_smoothing(rows: pd.DataFrame, tables: Tables) -> pd.DataFrame:
     if "smoothed" not in tables:
         return spam[:0].assign(left=1.0)
     seen = tables["smoothed"]
-    seen = seen.assign(left=seen.ke_smoothed/seen.ke, resolution=seen.rows)
-    views = [VARIANTS[name] for name in spam.variant]
-    spam = spam.assign(weight=[view.weight.__name__ for view in views], h=[view.h for view in views])
+    seen = seen.assign(left=seen.ke_smoothed/seen.ke, resolution=seen.rows, h=seen.h.round(6))
+    views = list(map(variant_of, spam.variant, spam.resolution))
+    spam = spam.assign(weight=[view.weight.__name__ for view in views],
+                       h=[round(view.h, 6) for view in views])
     key = [*SCENE, "weight", "h", "resolution"]
     return spam.merge(seen.drop_duplicates(key, keep="last")[[*key, "left"]], on=key)
 

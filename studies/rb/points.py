@@ -42,6 +42,8 @@ def carried() -> Iterator[Case]:
         yield CarriedRun(scene=RayleighBenard(ra=ra, L=float(rows)), seed=seed,
                          keep=seed == 1 and rows in (25, 40))
     yield CarriedRun(scene=RayleighBenard(ra=1e4, L=80.0))
+    # three seeds left open whether 25 rows are off by less than 0.3 %
+    yield from (CarriedRun(scene=RayleighBenard(ra=1e4, L=25.0), seed=seed) for seed in (4, 5, 6, 7, 8))
     for ra, rows, seed in product((2000.0, 2500.0, 3000.0), (16, 20, 25), SEEDS):
         yield CarriedRun(scene=RayleighBenard(ra=ra, L=float(rows)), seed=seed, t_end=400.0, mean_from=300.0)
     for ra, rows, seed in product((2e4, 5e4), (16, 25, 40), SEEDS):

@@ -1,0 +1,108 @@
+"""Dissipative particles with energies of their own: one temperature, heat conducted    [RR98 Sec. V]
+
+rho = 3, gamma = 4.5, rc = kT = 1, unit masses. A particle's entropy is C ln e.
+"""
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from particles.dissipative.edpd import Edpd
+from particles.dissipative.observe import kinetic_temperature
+from particles.dissipative.pairs3d import Uniform
+from particles.run import Plan, run
+from studies.kit import fits
+from studies.kit.case import Case, Outcome, Report
+from studies.kit.stats import mean, with_errors
+from studies.noise.dissipative import RHO
+
+BOX = (12.0, 3.0, 3.0)
+K = 2*np.pi/BOX[0]
+MANY, FEW = 1e4, 50.0       # capacities: whose T hardly fluctuate, whose T do
+
+
+def kappa_of(diffusivity: float, C: float, rho: float = RHO) -> float:
+    """nu/Pr = 2 pi rho C kappa/315, as printed    [Li et al. 2014, Eq. 15, and the manual of LAMMPS]"""
+    return 315*diffusivity/(2*np.pi*rho*C)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Shared(Case):
+    """A fluid that starts with halves of unlike temperature and is left alone; means of its later half."""
+    a: float
+    dt: float
+    time: float = 200.0
+    side: float = 6.0
+
+    @property
+    def cost(self) -> float:
+        return 3e-6*RHO*self.side**3*self.time/self.dt
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        method = Edpd(box=(self.side,)*3, a=self.a, C=FEW, kappa=kappa_of(0.1, FEW))
+        start = method.random_start(RHO)
+        start[-1] *= np.where(start[0] > 0, 1.5, 0.5)
+        series = {"energy": energy, "kinetic": kinetic_temperature, "internal": internal_temperature,
+                  "variance": relative_variance}
+        plan = Plan(dt=self.dt, steps=round(self.time/self.dt), every=max(1, round(0.2/self.dt)),
+                    series=series)
+        done = run(method, start, plan, report)
+        total, *late = (np.array(x)[len(x)//2*(name != "energy"):] for name, x in done.series.items())
+        drift = float(np.abs(total/total[0] - 1).max())
+        kinetic, internal, variance = late
+        means = with_errors(kinetic=mean(kinetic), internal=mean(internal), ratio=mean(kinetic/internal),
+                            variance=mean(variance*(FEW + 1)))
+        row = {"a": self.a, "dt": self.dt, "n": start.shape[1], "drift": drift, **means}
+        return Outcome({"shared": [row]})
+
+
+def energy(sums, state: np.ndarray) -> float:
+    """Kinetic and internal, of all particles."""
+    return float((sums.velocity(state)**2).sum()/2 + state[-1].sum())
+
+
+def internal_temperature(sums, state: np.ndarray) -> float:
+    """1/<1/T_i>, T of equilibrium; <T_i> is T (1 + 1/C)    [Avalos & Mackie 1997]"""
+    return float(1/np.mean(sums.method.C/state[-1]))
+
+
+def relative_variance(sums, state: np.ndarray) -> float:
+    """<e^2>/<e>^2 - 1, which is 1/(C + 1) where P(e) is e^C exp(-e/T)    [Avalos & Mackie 1997]"""
+    return float(state[-1].var()/state[-1].mean()**2)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Conduction(Case):
+    """A wave of temperature along x; the diffusivity that its decay shows beside the given one."""
+    rho: float
+    a: float
+    given: float
+    seed: int = 1
+
+    @property
+    def cost(self) -> float:
+        return 3e-6*self.rho**2*36*self.plan.steps
+
+    @property
+    def plan(self) -> Plan:
+        """For the time that a third of the wave takes or more; dt resolves what a pair exchanges, 21 D."""
+        time, dt = (1.0, 0.002) if self.given > 5 else (6.0, 0.01)
+        return Plan(dt=dt, steps=round(time/dt), every=round(0.02*time/dt), series={"wave": wave})
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        method = Edpd(box=BOX, a=self.a, C=MANY, kappa=kappa_of(self.given, MANY, self.rho),
+                      noise=Uniform(self.seed))
+        start = method.random_start(self.rho, self.seed)
+        start[-1] *= 1 + 0.1*np.sin(K*start[0])
+        done = run(method, start, self.plan, report)
+        t, size = np.array(done.times), np.array(done.series["wave"])
+        late = (t > t[-1]/10) & (size > 0.01)
+        rate = fits.line(t[late], np.log(size[late])).slope.value
+        return Outcome({"conduction": [{"rho": self.rho, "a": self.a, "given": self.given, "seed": self.seed,
+                                        "n": start.shape[1], "diffusivity": -rate/K**2}]})
+
+
+def wave(sums, state: np.ndarray) -> float:
+    """Amplitude of the wave of T; the mean of T would add the particles' own."""
+    T, shape = state[-1]/sums.method.C, np.sin(K*state[0])
+    return float(np.sum((T - T.mean())*shape)/np.sum(shape**2))
