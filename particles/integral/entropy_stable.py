@@ -22,6 +22,8 @@ from particles.threads import Threads
 
 STEEP, STEEPEST = 6, 20.0       # power of the sensor; what weighs a curvature of the pressure, over its mean
 SLOW = 0.1                      # of |v|, in the speed of shear and entropy waves that stand still on an edge
+CALM, ROUNDING = 1e-3, 1e-12    # parts of a full jump below which nothing is dissipated; of what is computed
+STILL = CALM**(1/STEEP)
 COURANT, KEPT = 0.9, 0.1        # part of the proven step; of a low-order density or energy that is kept
 LEAST = 1e-6                    # part of a step that halving goes down to
 OLD = (0.0, 3/4, 1/3)           # shares of the start in stages
@@ -65,19 +67,22 @@ class Limited(NamedTuple):
 
 
 @formula
-def log_mean(a, b):
-    """(b - a)/ln(b/a); by its series where a and b are near    [Ismail & Roe 2009]"""
-    f = (b - a)/(b + a)
-    f *= f
-    return (a + b)/(2 + f*(2/3 + f*(2/5 + f*2/7))) if f < 1e-4 else (b - a)/np.log(b/a)
+def over_mean(a, b):
+    """Half of ln(b/a) over (b - a)/(b + a), by its series where both are near    [Ismail & Roe 2009]"""
+    x = (b - a)/(b + a)
+    f = x*x
+    if f > 0.01:
+        return np.log(b/a)/(2*x)
+    return 1 + f*(1/3 + f*(1/5 + f*(1/7 + f*(1/9 + f*(1/11 + f*(1/13 + f/15))))))
 
 
 @generic
 def log_means(eos, a, b):
-    """Mean density and energy per mass of two points such that m D(s) - ... = 0: of fluids with an entropy."""
+    """rho_ln and the mean e for which D(s) = D(e)/T - ... holds between two points; of fluids with an entropy."""
 
 
-log_means.of(IdealGas)(lambda eos, a, b: (log_mean(a.rho, b.rho), eos.cv/log_mean(1/a.T, 1/b.T)))
+log_means.of(IdealGas)(lambda eos, a, b: (0.5*(a.rho + b.rho)/over_mean(a.rho, b.rho),
+                                          eos.cv*2*a.T*b.T/(a.T + b.T)*over_mean(a.T, b.T)))
 
 
 @pair_term(Logarithmic, 4)
@@ -96,46 +101,74 @@ def _(term, a, b, ab):
 
 
 @formula
-def bends(a, b, c, jump):
-    """|a - 2 b + c| over |a| + 2 |b| + |c|: 0 on a line, 1 where b alone changes, to a power; and what van
-    Albada's limiter leaves of b. jump : which is dissipated, where it is not b."""
-    s = abs(a - 2*b + c)/(abs(a) + 2*max(abs(b), abs(jump)) + abs(c) + 1e-300)
-    line = a*c*(a + c)*b/((a*a + c*c)*b*b) if a*c > 0 and a*b > 0 else 0.0
-    return s**STEEP, max(0.0, 1 - line)
+def third(a, b, c):
+    """|a - 2 b + c| of three differences, and |a| + 2 |b| + |c|: what is no straight line, and all."""
+    return abs(a - 2*b + c), abs(a) + 2*abs(b) + abs(c)
+
+
+@formula
+def bend(a, b, c, jump):
+    """The sensor, and what van Albada's mean of a and c leaves of b. jump : what is dissipated, where not b."""
+    change, size = third(a, b, c)
+    s = change/(size + 2*max(abs(jump) - abs(b), 0.0) + 1e-300)
+    line = max(a*c, 0.0)*(a + c)*b/((a*a + c*c)*b*b + 1e-300)
+    return s**STEEP, min(1.0, max(0.0, 1 - line))
+
+
+@formula
+def calm(a, b, c, scale):
+    """Is the sensor below STILL, or all of it round-off?"""
+    change, size = third(a, b, c)
+    return change <= STILL*size + ROUNDING*scale
+
+
+@formula
+def outer(a, b, ab, weight):
+    """Twice what gradients of a and b say of the differences of rho, P, u and v along an edge."""
+    x, y = 2*ab.dx, 2*ab.dy
+    return ((x*a.rho_x + y*a.rho_y, x*b.rho_x + y*b.rho_y),
+            (x*a.P_x + y*(a.P_y + weight), x*b.P_x + y*(b.P_y - weight)),
+            (x*a.u_x + y*a.u_y, x*b.u_x + y*b.u_y), (x*a.v_x + y*a.v_y, x*b.v_x + y*b.v_y))
 
 
 @pair_term(Dissipation, 4)
 def _(term, a, b, ab):
-    size = np.sqrt(ab.sx*ab.sx + ab.sy*ab.sy)
-    nx, ny, cv = ab.sx/max(size, 1e-300), ab.sy/max(size, 1e-300), term.eos.cv
-    gamma = 1 + 1/cv
+    x, y, mean = ab.sx, ab.sy, 0.5*(a.rho + b.rho)
+    drho, du, dv, weight = b.rho - a.rho, b.vx - a.vx, b.vy - a.vy, mean*b.g
+    # to an image: pressure less the weight above, mirrored, so that what leaves there comes back by its parent
+    dP = b.P - a.P + mean*b.hydro/b.rho + weight*ab.dy
+    (r0, r1), (P0, P1), (u0, u1), (v0, v1) = outer(a, b, ab, weight)
+    c2, both, speed = a.c*b.c, a.P + b.P, (abs(x) + abs(y))*(a.c + b.c)
+    un, ut, ds = x*du + y*dv, x*dv - y*du, c2*drho - dP
+    if (STEEPEST*abs(P0 + P1 - 4*dP) <= CALM*both and calm(P0 - dP, dP, P1 - dP, both)
+            and calm(c2*r0 - P0 - ds, ds, c2*r1 - P1 - ds, both)
+            and calm(x*u0 + y*v0 - un, un, x*u1 + y*v1 - un, speed)
+            and calm(x*v0 - y*u0 - ut, ut, x*v1 - y*u1 - ut, speed)):
+        return 0.0, 0.0, 0.0, 0.0
+    return waves(term.eos, a, b, ab, dP, (r0, r1), (P0, P1), (u0, u1), (v0, v1))
+
+
+@jit
+def waves(eos, a, b, ab, dP, r, P, by_x, by_y):
+    """What sound, shear and entropy waves lose."""
+    size, cv, gamma = np.sqrt(ab.sx*ab.sx + ab.sy*ab.sy), eos.cv, 1 + 1/eos.cv
+    nx, ny = ab.sx/max(size, 1e-300), ab.sy/max(size, 1e-300)
     u, v, du, dv = 0.5*(a.vx + b.vx), 0.5*(a.vy + b.vy), b.vx - a.vx, b.vy - a.vy
     un, dun, dut = u*nx + v*ny, du*nx + dv*ny, dv*nx - du*ny
-    rho, e = log_means(term.eos, a, b)
-    beta, dbeta = 0.5*(1/a.T + 1/b.T), 1/b.T - 1/a.T
-    mean, drho = 0.5*(a.rho + b.rho), b.rho - a.rho
-    c2, weight = gamma*mean/(beta*rho), mean*b.g
-    # to an image: pressure less the weight above, mirrored, so that what leaves there comes back by its parent
-    c, dP = np.sqrt(c2), b.P - a.P + mean*b.hydro/b.rho + weight*ab.dy
-    # what straight lines through both points say besides: a and c of b, twice the slope less b
-    r0, r1 = 2*(a.rho_x*ab.dx + a.rho_y*ab.dy), 2*(b.rho_x*ab.dx + b.rho_y*ab.dy)
-    P0, P1 = 2*(a.P_x*ab.dx + (a.P_y + weight)*ab.dy), 2*(b.P_x*ab.dx + (b.P_y - weight)*ab.dy)
-    u0, u1 = 2*(a.u_x*ab.dx + a.u_y*ab.dy), 2*(b.u_x*ab.dx + b.u_y*ab.dy)
-    v0, v1 = 2*(a.v_x*ab.dx + a.v_y*ab.dy), 2*(b.v_x*ab.dx + b.v_y*ab.dy)
-    steep = min(1.0, STEEPEST*abs(P0 + P1 - 4*dP)/(a.P + b.P))
-    of_P, P_line = bends(P0 - dP, dP, P1 - dP, b.P - a.P)
-    of_n, n_line = bends(u0*nx + v0*ny - dun, dun, u1*nx + v1*ny - dun, dun)
-    of_t, _ = bends(v0*nx - u0*ny - dut, dut, v1*nx - u1*ny - dut, dut)
-    ds = drho - dP/c2
-    of_s, s_line = bends(r0 - P0/c2 - ds, ds, r1 - P1/c2 - ds, drho - (b.P - a.P)/c2)
-    speed = np.sqrt(u*u + v*v)
-    fast = max(abs(a.vx*nx + a.vy*ny) + a.c, abs(b.vx*nx + b.vy*ny) + b.c)
-    slow = np.sqrt(un*un + (SLOW*speed)**2)
+    rho, e = log_means(eos, a, b)
+    beta, dbeta, mean, drho = 0.5*(1/a.T + 1/b.T), 1/b.T - 1/a.T, 0.5*(a.rho + b.rho), b.rho - a.rho
+    c2, (u0, u1), (v0, v1) = gamma*mean/(beta*rho), by_x, by_y
+    ds, sigma = drho - dP/c2, min(1.0, STEEPEST*abs(P[0] + P[1] - 4*dP)/(a.P + b.P))
+    of_P, P_line = bend(P[0] - dP, dP, P[1] - dP, b.P - a.P)
+    of_n, n_line = bend(u0*nx + v0*ny - dun, dun, u1*nx + v1*ny - dun, dun)
+    of_t, _ = bend(v0*nx - u0*ny - dut, dut, v1*nx - u1*ny - dut, dut)
+    of_s, s_line = bend(r[0] - P[0]/c2 - ds, ds, r[1] - P[1]/c2 - ds, drho - (b.P - a.P)/c2)
+    flow = np.sqrt(u*u + v*v)
+    fast, slow = fastest(a, b, ab), size*np.sqrt(un*un + (SLOW*flow)**2)
     jump = drho/rho + dbeta*e           # of -s
-    sound = size*fast*max(of_P, steep*P_line)*rho/gamma*(jump - c2*cv*dbeta)
-    across = size*fast*min(1.0, max(speed/c, steep))*max(of_n, steep*n_line)*mean*dun
-    heat = size*slow*max(of_s, steep*s_line)*rho*(gamma - 1)/gamma*jump
-    along = size*slow*of_t*mean*dut
+    sound = fast*max(of_P, sigma*P_line)*rho/gamma*(jump - c2*cv*dbeta)
+    across = fast*min(1.0, max(flow/np.sqrt(c2), sigma))*max(of_n, sigma*n_line)*mean*dun
+    heat, along = slow*max(of_s, sigma*s_line)*rho*(gamma - 1)/gamma*jump, slow*of_t*mean*dut
     m = sound + heat
     return (m, m*u + across*nx - along*ny, m*v + across*ny + along*nx,
             0.5*m*(a.vx*b.vx + a.vy*b.vy) + sound*c2*cv + across*un + along*(v*nx - u*ny))
