@@ -19,7 +19,17 @@ from particles.integral.points import of_positions, random, relaxed
 from particles.integral.stream import Stream, Streaming
 from particles.integral.triangulation import between, delaunay
 from particles.weights import Lucy, Monaghan, WendlandC2
-from studies.build.setting import Ready, check_points, inside, no_layer, no_still_layer, positions, shifted, stepped, sticking
+from studies.build.setting import (
+    Ready,
+    check_points,
+    inside,
+    no_layer,
+    no_still_layer,
+    positions,
+    shifted,
+    stepped,
+    sticking,
+)
 
 OF_LIMIT = 0.8      # of the step to its stability limit: the flow is steady, its errors are of space alone
 

@@ -8,10 +8,11 @@ from particles.run import STUDIES
 from particles.weights import Lucy, Monaghan
 from studies.build import variant, variants
 from studies.build.spam import PRINTED
-from studies.hardcases import high_ra, printed, tubes
+from studies.hardcases import high_ra, printed, robust, tubes
 from studies.hardcases.extremes import LAYERS, ROWS, SITUATIONS, Smooth, Tiled, WithoutPlates
 from studies.hardcases.high_ra import FineGrid, HighRa, Rippled
 from studies.hardcases.printed import Interface, Square
+from studies.hardcases.robust import STABLE
 from studies.hardcases.survival import GRID, PROBES, Hard, HardOnGrid, Probe
 from studies.hardcases.tubes import BARELY, ETAS, STEPS, MethodTube
 from studies.kit.case import Case
@@ -19,14 +20,14 @@ from studies.kit.case import Case
 LATTICE, JITTERED = "fixed-lattice", "fixed-jittered-delaunay"
 CARRIED, MOVING = "moving-delaunay", "moving"
 NESTED = "fixed-lattice-nested-only"
-RANDOM = (JITTERED, CARRIED, MOVING)    # whose points lie as a seed says
+RANDOM = (JITTERED, STABLE[1], CARRIED, MOVING)     # whose points lie as a seed says
 TILED = Tiled(variant(GRID))
 
 #: name -> (what runs it, variant)
 Runners = dict[str, tuple[Any, Any]]
 #: tubes
 IN_TUBES: Runners = {GRID: (tubes.grid, variant(GRID))} | {
-    name: (tubes.points, variant(name)) for name in (LATTICE, JITTERED, CARRIED, MOVING)}
+    name: (tubes.points, variant(name)) for name in (LATTICE, JITTERED, *STABLE, CARRIED, MOVING)}
 #: the highest Ra, likewise
 IN_LAYERS: Runners = {
     GRID: (high_ra.on_grid, ROWS),
@@ -43,7 +44,7 @@ def smooth(*names: str) -> dict[str, Any]:
 
 #: the map: name -> what has ready(scene)
 SPAM = smooth("spam", "spam-wendland-c2")
-POINTS = variants(LATTICE, NESTED, JITTERED)
+POINTS = variants(LATTICE, NESTED, JITTERED, *STABLE)
 MOVE = variants("moving-literal", "moving-constant-mass", MOVING)
 TRIANGLES = variants(CARRIED)
 #: of the vortex and the strip smooth particles and the grid have no plates
@@ -52,7 +53,8 @@ NO_PLATES[GRID] = TILED
 USUAL = SPAM | POINTS | MOVE | TRIANGLES
 #: case -> who takes part in place of the usual ones
 TAKES: dict[str, dict[str, Any]] = {
-    "disordered points": variants(LATTICE, JITTERED, "fixed-random-delaunay", "fixed-jittered-plain",
+    "Ra 1e7": variants(LATTICE, JITTERED, *STABLE, CARRIED),
+    "disordered points": variants(LATTICE, JITTERED, *STABLE, "fixed-random-delaunay", "fixed-jittered-plain",
                                   "fixed-jittered-closed", CARRIED),
     "narrow weight": variants(LATTICE)
     | {f"spam-range-{h:g}": Smooth(PRINTED._replace(h=h)) for h in (0.9, 1.2, 1.5, 2.0)}
@@ -61,7 +63,7 @@ TAKES: dict[str, dict[str, Any]] = {
     "vacuum": NO_PLATES,
     "wall corner": SPAM | TRIANGLES | smooth("spam-walls-odd", "spam-walls-own-pressure", "spam-direct")
     | {"spam-no-walls": WithoutPlates(Smooth(PRINTED))},
-    "long rest": variants(LATTICE, JITTERED, CARRIED),
+    "long rest": variants(LATTICE, JITTERED, *STABLE, CARRIED),
     "a million points": {name: NO_PLATES[name] for name in (GRID, "spam", CARRIED)},
 }
 
@@ -69,7 +71,7 @@ TAKES: dict[str, dict[str, Any]] = {
 #: case -> who is asked for a number in it: densities that alternate no smooth particle has, and no node of
 #: the grid sees
 PROBED = dict.fromkeys(PROBES, USUAL | {GRID: TILED})
-PROBED["alternating densities"] = variants(LATTICE, JITTERED, CARRIED, MOVING)
+PROBED["alternating densities"] = variants(LATTICE, JITTERED, *STABLE, CARRIED, MOVING)
 
 LENGTHS = (24, 36, 48, 72, 96, 144, 192)
 MORE_SEEDS = 16         # of the longest viscous tube of smooth particles, whose ringing is near its limit
@@ -107,6 +109,7 @@ def paper() -> Iterator[Case]:
             yield Interface(scale=scale, steep=steep, seed=seed)
     yield from highest()
     yield from hard()
+    yield from robust.cases()
 
 
 def smooth_tubes(lengths: Sequence[int], etas: Sequence[float], seeds: Iterable[int]) -> Iterator[Case]:
