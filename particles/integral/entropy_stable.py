@@ -12,7 +12,7 @@ import numpy as np
 from continuum.fluid import sound_speed
 from continuum.jit import check_formulas, formula, jit
 from particles.integral.entropy_fluxes import Dissipation, Logarithmic, fastest, log_means
-from particles.integral.exchange import At, Exchange, Listing, Pressure, Stage, pressure_of
+from particles.integral.exchange import Listing, Pressure, pressure_of
 from particles.integral.fixed import Point, first_invalid, inner, stored
 from particles.integral.layer import Layer, LayerSums
 from particles.limits import limit_of
@@ -64,7 +64,8 @@ def _(term, a, b, ab):
 @formula
 def share(a, rho, px, py, eps):
     """The largest part <= 1 of a change that leaves KEPT of a point's low-order density and energy."""
-    part, heat = min(1.0, (1 - KEPT)*a.low_rho/max(-rho, 1e-300)), inner_energy(a)
+    part = min(1.0, (1 - KEPT)*a.low_rho/max(-rho, 1e-300))
+    heat = a.low_eps - (a.low_px*a.low_px + a.low_py*a.low_py)/(2*a.low_rho)
     # rho (eps - KEPT heat) - p^2/2 is a quadratic of the part, positive at 0
     two, zero = rho*eps - 0.5*(px*px + py*py), (1 - KEPT)*a.low_rho*heat
     one = a.low_rho*eps + rho*(a.low_eps - KEPT*heat) - a.low_px*px - a.low_py*py
@@ -73,30 +74,12 @@ def share(a, rho, px, py, eps):
     return min(part, 2*zero/turn) if inside >= 0 and turn > 0 else part
 
 
-@formula
-def inner_energy(a):
-    return a.low_eps - (a.low_px*a.low_px + a.low_py*a.low_py)/(2*a.low_rho)
-
-
 @pair_term(Limited, 4)
 def _(term, a, b, ab):
     m, px, py, e = rate(term.excess, a, b, ab)
     less = min(share(a, a.room*m, a.room*px, a.room*py, a.room*e),
                share(b, -b.room*m, -b.room*px, -b.room*py, -b.room*e)) - 1
     return less*m, less*px, less*py, less*e
-
-
-class Steepness(Stage):
-    """Gives points and images gradients, of images as in a mirror."""
-
-    def __init__(self, eos: Any, n: int, threads: Threads):
-        self.eos, self.n, self.threads, self.slopes = eos, n, threads, np.zeros((n, 9))
-
-    def prepare(self, at: At) -> None:
-        self.threads(_sound, len(at.points), self.eos, at.points)
-        self.threads(sweep, self.n, Slopes(), at.points, at.edges, self.slopes)
-        self.threads(_slopes, self.n, self.slopes, at.V, at.points)
-        at.images.fill(at.points, ("rho_x", "P_x", "u_x", "v_y"), ("rho_y", "P_y", "u_y", "v_x"))
 
 
 @jit
@@ -116,7 +99,8 @@ def _slopes(first, last, slopes, V, points):
 
 
 class StableSums(LayerSums):
-    """The compiled sums. refused : parts of steps that were shortened; limited : Euler steps with limits."""
+    """The compiled sums. refused : parts of steps that were halved, the last one by point `lost`; limited :
+    Euler steps with limits."""
     method: "StableLayer"
 
     def __init__(self, method: "StableLayer", threads: Threads):
@@ -128,16 +112,23 @@ class StableSums(LayerSums):
         along = stored(near, far, n + self.image)
         edges = Faces(**self.at.edges._asdict(), dx=along.sx, dy=along.sy)
         self.at = self.at._replace(points=self.points, edges=edges)
-        self.steepness, (own, *needed) = Steepness(method.eos, n, threads), self.exchange.stages
-        terms = Listing((*method.transport, *method.flow))
-        self.exchange = Exchange(terms, (own, self.steepness, *needed), n, threads)
-        self.excess, self.gain = Excess(Listing(method.flow)), np.zeros((n, 4))
+        self.exchange.term = Listing((*method.transport, *method.flow))
+        self.excess, self.gain, self.slopes = Excess(Listing(method.flow)), np.zeros((n, 4)), np.zeros((n, 9))
         k = 2*np.bincount(beyond.i, beyond.k, n) - method.edges.laplacian.diagonal()
         self.spread, self.per_edge = k/self.at.V, edges.taken/self.at.V
 
+    def surround(self, state: np.ndarray) -> None:
+        """Images; gradients, of images as in a mirror."""
+        super().surround(state)
+        points, V = self.points, self.at.V
+        self.threads(_sound, len(points), self.method.eos, points)
+        self.threads(sweep, self.n, Slopes(), points, self.at.edges, self.slopes)
+        self.threads(_slopes, self.n, self.slopes, V, points)
+        self.at.images.fill(points, ("rho_x", "P_x", "u_x", "v_y"), ("rho_y", "P_y", "u_y", "v_x"))
+
     def longest(self) -> float:
         """The step that is known to keep a state positive that was looked at."""
-        points, sound = self.points[:self.n], self.steepness.slopes[:, 8]
+        points, sound = self.points[:self.n], self.slopes[:, 8]
         chi = np.maximum(points["eta"], points["k"]/self.method.eos.cv)/points["rho"]
         return float(1/np.max(sound/self.at.V/COURANT + self.spread*chi))
 
@@ -151,7 +142,8 @@ class StableSums(LayerSums):
         points, edges, per_V = self.points, self.at.edges, dt/self.at.V
         self.threads(sweep, self.n, self.excess, points, edges, self.gain)
         low = state - per_V*self.gain.T
-        if first_invalid(low, self.method.eos) < self.n:
+        self.lost = first_invalid(low, self.method.eos)
+        if self.lost < self.n:
             return False
         for name, values in zip(LOW, (*low, dt*self.per_edge)):
             points[name][:self.n] = values
@@ -183,25 +175,23 @@ class Positive:
     def step(self, sums: Any, y: np.ndarray, dt: float) -> None:
         left, most = dt, inf
         while left > 0:
+            self._start[:] = y
             sums.rates(y, self._k)
             h = left/ceil(left/min(sums.longest(), most))
-            if self._part(sums, y, h):
+            if all(self._stage(sums, y, h, old) for old in OLD):
                 left, most = left - h, inf
-            elif h > LEAST*dt:
-                sums.refused, most = sums.refused + 1, 0.6*h
-            else:
-                raise FloatingPointError(f"no step of {h:.3g} or more leaves density and energy positive")
+                continue
+            y[:], most, sums.refused = self._start, h/2, sums.refused + 1
+            if most < LEAST*dt:
+                raise FloatingPointError(f"no step of {h:.3g} or more leaves point {sums.lost} a density and "
+                                         "an energy that are positive")
 
-    def _part(self, sums: Any, y: np.ndarray, h: float) -> bool:
-        self._start[:] = y
-        for old in OLD:
-            if old:
-                sums.rates(y, self._k)
-            if not sums.euler(y, h, self._k):
-                y[:] = self._start
-                return False
-            y[:] = old*self._start + (1 - old)*y
-        return True
+    def _stage(self, sums: Any, y: np.ndarray, h: float, old: float) -> bool:
+        if old:
+            sums.rates(y, self._k)
+        done: bool = sums.euler(y, h, self._k)
+        y[:] = old*self._start + (1 - old)*y
+        return done
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -214,12 +204,8 @@ class StableLayer(Layer):
 
     def __post_init__(self):
         check_formulas(self.eos, log_means)
-        object.__setattr__(self, "flow", self.flow or crossed(self.eos))
-
-
-def crossed(eos: Any) -> tuple:
-    """Accurate in smooth flow, and dissipates."""
-    return Logarithmic(eos), Pressure(eos), Dissipation(eos)
+        usual = Logarithmic(self.eos), Pressure(self.eos), Dissipation(self.eos)
+        object.__setattr__(self, "flow", self.flow or usual)
 
 
 @limit_of.register
