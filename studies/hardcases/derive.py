@@ -222,7 +222,7 @@ TABLES = (
              means={"measured": ("shear layer: rate in 1/t0; other: over the start", "")}),
     Table.of("riemann", "method problem cells seed", "rho_exact v_exact P_exact wiggles reached",
              about="A Riemann problem without viscosity, in the half of it that no wave has left.",
-             means={"cells": ("spacings of Toro's unit of length", "")}),
+             means={"cells": ("spacings of Toro's unit of length", ""), "problem": ("which", "")}),
     Table.of("smooth_flows", "scene method rows", "value",
              about="A smooth flow by the same edges with and without a flux that survives.",
              means={"value": ("K of convection; rms error of velocities over the fastest of the start", "")}),
