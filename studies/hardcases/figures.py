@@ -33,8 +33,8 @@ FLOWS = 100*SPURIOUS    # speeds of KHP95 over that of sound
 LEVELS, SHADES = (NEAR, 0.5, 1e9), ListedColormap(["#DEEBF7", "#F5C26B", "#D55E00", "#3B0F4F"])
 KEY = ("A cell is an error in %: of the flow against the finest grid, the exact answer or theory; corner: "
        "speed over that of KHP95's flows; tube: ringing of v. Near 100: the flow froze. Lightest: right, by "
-       "all that is asked. Dark: the run ended early. ?: nothing to judge by. Empty: not tried. Methods tried "
-       "in one or two cases are in map.csv.")
+       "all that is asked. Dark: the run ended early. ?: nothing to judge by. Empty: not tried. Methods "
+       "tried in one or two cases are in map.csv.")
 
 
 def judged(rows: pd.DataFrame) -> pd.DataFrame:
