@@ -11,7 +11,7 @@ from matplotlib.lines import Line2D
 from matplotlib.text import Text
 
 from studies.hardcases import figures as hardcases_figures
-from studies.hardcases.derive import NEAR, TABLES
+from studies.hardcases.derive import TABLES
 from studies.kit.sweep import load
 from studies.kit.table import Tables
 from studies.rb import tables
@@ -155,7 +155,7 @@ def test_colours_of_the_map_are_its_outcomes():
     """The lightest are all right, no others are; every method that meets three cases or more has its line."""
     table = load(TABLES, "hardcases")["map"]
     rows = hardcases_figures.judged(table)
-    assert (rows["error"] <= NEAR).eq(rows["outcome"] == "right").all()
+    assert (rows["shade"] == 0).eq(rows["outcome"] == "right").all()
     words = " ".join(texts(hardcases_figures.chart(table)).split())
     cases = rows.groupby("method")["case"].nunique()
     assert all(name in words for name in cases.index[cases >= 3])

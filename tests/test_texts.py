@@ -268,6 +268,9 @@ def breaks() -> Iterator[str]:
     yield f"in the flow beside it by {percent('khp95-hard-freezing-molten-shortest')} %"
     yield f"moving points within {percent('own-sod-moving-grid')} %"
     yield f"grows at {ripples()} of the impulsive rate"
+    lower, rings = (CLAIMS.measured[f"own-stable-{name}"] for name in ("convection", "sod-rings"))
+    yield f"K is {100*(1 - lower):.2f} % lower than without"
+    yield f"v still rings by {100*rings:.0f} %"
     debye = read(RESULTS/"lattices/debye.csv").query("lattice == 'hexagonal' and h == 2.5")
     debye = debye[debye["weight"] == "Lucy"]
     sound, shear = debye[["sound", "shear"]].iloc[0]

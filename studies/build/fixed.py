@@ -12,13 +12,24 @@ from particles.fields import kinetic
 from particles.integral.bodies import Held, Rows, held, together, with_sides
 from particles.integral.edge_makers import closed, exact, plain, renormalised
 from particles.integral.edges import NONE_BEYOND, between_plates
+from particles.integral.entropy_stable import StableLayer
 from particles.integral.layer import Driven, Layer, LayerSums
 from particles.integral.nested import mixed
 from particles.integral.points import of_positions, random, relaxed
 from particles.integral.stream import Stream, Streaming
 from particles.integral.triangulation import between, delaunay
 from particles.weights import Lucy, Monaghan, WendlandC2
-from studies.build.setting import Ready, check_points, inside, no_layer, positions, shifted, stepped, sticking
+from studies.build.setting import (
+    Ready,
+    check_points,
+    inside,
+    no_layer,
+    no_still_layer,
+    positions,
+    shifted,
+    stepped,
+    sticking,
+)
 
 OF_LIMIT = 0.8      # of the step to its stability limit: the flow is steady, its errors are of space alone
 
@@ -41,6 +52,7 @@ class Scheme(NamedTuple):
 
     size : of the points' disorder, in spacings. share : of transport along edges.
     held : plates are rows of points that are held, in place of mirror images behind them.
+    kind : of a fluid between mirrors.
     """
     name: str
     make: Callable = renormalised
@@ -51,9 +63,10 @@ class Scheme(NamedTuple):
     share: float = 1.0
     points: Callable = positions
     held: bool = False
+    kind: Any = Layer
 
     def refuses(self, scene: Any) -> str:
-        return sticking(scene) if self.held and isinstance(scene.sides, Sides) else no_layer(scene)
+        return sticking(scene) if self.held and isinstance(scene.sides, Sides) else REFUSES[self.kind](scene)
 
     def ready(self, scene: Any, seed: int = 1, fields: tuple | None = None) -> Ready:
         method = fluid(scene, self, seed)
@@ -65,6 +78,8 @@ class Scheme(NamedTuple):
         return {"ke": kinetic, "lower": partial(heat, plate=0), "upper": partial(heat, plate=1)}
 
 
+#: what a kind of fluid between mirrors does not take of a scene
+REFUSES = {Layer: no_layer, StableLayer: no_still_layer}
 SCHEMES = {s.name: s for s in (
     Scheme("fixed-lattice"),
     Scheme("fixed-lattice-printed-heat", mended=False),     # Eq. 51, heated by its forces alone
@@ -84,6 +99,8 @@ SCHEMES = {s.name: s for s in (
     Scheme("fixed-jittered-exact", exact, WendlandC2, 3.0, 0.3),
     Scheme("fixed-jittered-closed", closed, WendlandC2, 3.0, 0.3),
     Scheme("fixed-jittered-plain", plain, WendlandC2, 3.0, 0.3),
+    Scheme("fixed-lattice-entropy-stable", kind=StableLayer),
+    Scheme("fixed-jittered-delaunay-entropy-stable", delaunay, size=0.3, kind=StableLayer),
 )}
 
 
@@ -103,7 +120,7 @@ def layer(scene: Any, scheme: Scheme, seed: int) -> Layer:
     else:
         x = inside(scene.L, place(*box, scheme.size, seed))
         edges, beyond = between_plates(scheme.make, x, *box, weight)
-    kind: Any = partial(Driven, slide=(0.0, scene.slide)) if scene.slide else Layer
+    kind: Any = partial(Driven, slide=(0.0, scene.slide)) if scene.slide else scheme.kind
     return kind(x=x, edges=edges, beyond=beyond, eos=scene.eos, law=scene.law, g=scene.g,
                 T_plates=(scene.T_hot, scene.T_cold), transport=mixed(scheme.share, scheme.mended))
 

@@ -1,7 +1,7 @@
 """Where do methods break, and was it to be expected?
 
 KHP95, Secs II, V, VI, Figs 10, 11: shock tubes and a shocked interface against exact and linear theory; the
-square of Fig. 10; the highest Ra that 16 rows bear; and a map of all methods over fifteen hard cases.
+square of Fig. 10; the highest Ra that 16 rows bear; and a map of all methods over sixteen hard cases.
 Particles and points have unit spacing at mean density 1. Paper size takes a quarter of an hour.
 """
 from studies.hardcases import cases, claims, derive, figures

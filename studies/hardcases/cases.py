@@ -8,10 +8,11 @@ from particles.run import STUDIES
 from particles.weights import Lucy, Monaghan
 from studies.build import variant, variants
 from studies.build.spam import PRINTED
-from studies.hardcases import high_ra, printed, tubes
+from studies.hardcases import high_ra, printed, robust, tubes
 from studies.hardcases.extremes import LAYERS, ROWS, SITUATIONS, Smooth, Tiled, WithoutPlates
 from studies.hardcases.high_ra import FineGrid, HighRa, Rippled
 from studies.hardcases.printed import Interface, Square
+from studies.hardcases.robust import STABLE
 from studies.hardcases.survival import GRID, PROBES, Hard, HardOnGrid, Probe
 from studies.hardcases.tubes import BARELY, ETAS, STEPS, MethodTube
 from studies.kit.case import Case
@@ -43,7 +44,7 @@ def smooth(*names: str) -> dict[str, Any]:
 
 #: the map: name -> what has ready(scene)
 SPAM = smooth("spam", "spam-wendland-c2")
-POINTS = variants(LATTICE, NESTED, JITTERED)
+POINTS = variants(LATTICE, NESTED, JITTERED, *STABLE)
 MOVE = variants("moving-literal", "moving-constant-mass", MOVING)
 TRIANGLES = variants(CARRIED)
 #: of the vortex and the strip smooth particles and the grid have no plates
@@ -52,7 +53,8 @@ NO_PLATES[GRID] = TILED
 USUAL = SPAM | POINTS | MOVE | TRIANGLES
 #: case -> who takes part in place of the usual ones
 TAKES: dict[str, dict[str, Any]] = {
-    "disordered points": variants(LATTICE, JITTERED, "fixed-random-delaunay", "fixed-jittered-plain",
+    "Ra 1e7": variants(LATTICE, JITTERED, *STABLE, CARRIED),
+    "disordered points": variants(LATTICE, JITTERED, *STABLE, "fixed-random-delaunay", "fixed-jittered-plain",
                                   "fixed-jittered-closed", CARRIED),
     "narrow weight": variants(LATTICE)
     | {f"spam-range-{h:g}": Smooth(PRINTED._replace(h=h)) for h in (0.9, 1.2, 1.5, 2.0)}
@@ -69,7 +71,7 @@ TAKES: dict[str, dict[str, Any]] = {
 #: case -> who is asked for a number in it: densities that alternate no smooth particle has, and no node of
 #: the grid sees
 PROBED = dict.fromkeys(PROBES, USUAL | {GRID: TILED})
-PROBED["alternating densities"] = variants(LATTICE, JITTERED, CARRIED, MOVING)
+PROBED["alternating densities"] = variants(LATTICE, JITTERED, *STABLE, CARRIED, MOVING)
 
 LENGTHS = (24, 36, 48, 72, 96, 144, 192)
 MORE_SEEDS = 16         # of the longest viscous tube of smooth particles, whose ringing is near its limit
@@ -102,11 +104,14 @@ def paper() -> Iterator[Case]:
     yield from smooth_tubes(LENGTHS, (0.0, 0.5), range(1, 4))
     yield from smooth_tubes(LENGTHS[-1:], (0.5,), range(4, MORE_SEEDS + 1))
     yield from method_tubes(LENGTHS[:5], 3)
+    for method, eta, L in product(STABLE, ETAS, (48, 96)):      # whose steps are as short as they need anyway
+        yield MethodTube(method=method, tube=tubes.points, variant=variant(method), eta=eta, L=L)
     for scale, steep, last in RIPPLES:
         for seed in range(1, last + 1):
             yield Interface(scale=scale, steep=steep, seed=seed)
     yield from highest()
     yield from hard()
+    yield from robust.cases()
 
 
 def smooth_tubes(lengths: Sequence[int], etas: Sequence[float], seeds: Iterable[int]) -> Iterator[Case]:

@@ -32,19 +32,21 @@ FLOWS = 100*SPURIOUS    # speeds of KHP95 over that of sound
 #: largest errors of the shades, of which the last are for runs that ended
 LEVELS, SHADES = (NEAR, 0.5, 1e9), ListedColormap(["#DEEBF7", "#F5C26B", "#D55E00", "#3B0F4F"])
 KEY = ("A cell is an error in %: of the flow against the finest grid, the exact answer or theory; corner: "
-       "speed over that of KHP95's flows; tube: ringing of v. Near 100: the flow froze. Dark: the run ended "
-       "early. ?: nothing to judge by. Empty: not tried. Methods tried in one or two cases are in map.csv.")
+       "speed over that of KHP95's flows; tube: ringing of v. Near 100: the flow froze. Lightest: right, by "
+       "all that is asked. Dark: the run ended early. ?: nothing to judge by. Empty: not tried. Methods "
+       "tried in one or two cases are in map.csv.")
 
 
 def judged(rows: pd.DataFrame) -> pd.DataFrame:
-    """Rows of cases with `error` (infinite where a run ended early) and a case for each tube."""
+    """Rows of cases with `error` (infinite where a run ended early), its `shade` and a case for each tube."""
     rows = rows[rows.case.str.startswith(CASES)]
     scale = np.where(rows.number == "speed/c", FLOWS, 1.0)
     error: pd.Series = (rows.measured - rows.predicted).abs()/scale
     tube = rows.case.where(rows.case != "shock tube", rows.case + " " + rows.variant)
     error[rows.outcome == "unjudged"] = np.nan
     error[rows.outcome == "diverges"] = np.inf
-    return rows.assign(case=tube, error=error)
+    shade = np.where(rows.outcome == "right", 0, np.maximum(np.digitize(error, LEVELS), 1))
+    return rows.assign(case=tube, error=error, shade=shade)
 
 
 def chart(rows: pd.DataFrame) -> Figure:
@@ -54,10 +56,10 @@ def chart(rows: pd.DataFrame) -> Figure:
     rows = rows[rows.groupby("case").method.transform("nunique") >= MANY]
     methods = list(rows.method.value_counts().index)
     cases = [case for name in CASES for case in sorted(set(rows.case)) if case.startswith(name)]
-    errors = rows.pivot(index="method", columns="case", values="error").loc[methods, cases]
+    errors, shades = (rows.pivot(index="method", columns="case", values=name).loc[methods, cases]
+                      for name in ("error", "shade"))
     page, axes = figure(width=7.4, height=2.5 + 0.29*len(methods))
-    shade = pd.DataFrame(np.digitize(errors, LEVELS)).where(errors.notna().to_numpy())
-    axes.pcolormesh(shade, cmap=SHADES, vmin=0, vmax=len(LEVELS), edgecolors="white")
+    axes.pcolormesh(shades.where(errors.notna()), cmap=SHADES, vmin=0, vmax=len(LEVELS), edgecolors="white")
     for case, method, error in rows[["case", "method", "error"]].to_numpy():
         x, y, colour = cases.index(case) + 0.5, methods.index(method) + 0.5, "black"
         words = "?" if np.isnan(error) else percents(error)

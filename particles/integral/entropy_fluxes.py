@@ -1,0 +1,136 @@
+"""What edges that close exchange of an ideal gas so that no entropy is lost or destroyed, in 2D.
+
+In place of convection and pressure a scene lists `Logarithmic` and one of two pressures, which together keep
+sum V rho s to round-off [Tadmor 1987]: `exchange.Pressure`, RR98's own crossed one, is as accurate as their
+brackets, `MeanPressure` keeps contacts. `Dissipation` goes with either; two states cannot make it destroy
+entropy. {} is the mean of both points, _ln the logarithmic one.
+"""
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from continuum.fluid import IdealGas
+from continuum.jit import formula, generic, jit
+from particles.integral.exchange import pressure_of
+from particles.pairs import pair_term
+
+STEEP, STEEPEST = 6, 20.0       # power of the sensor; what weighs a bend of the pressure, over its mean
+SLOW = 0.1                      # of |v|, in the speed of shear and entropy waves that stand still on an edge
+CALM, ROUNDING = 1e-3, 1e-12    # parts of a full jump, and of a field, below which nothing is dissipated
+STILL = CALM**(1/STEEP)
+
+
+class Logarithmic(NamedTuple):
+    """m = S.{v} rho_ln, which carries {v} and c_v/(1/T)_ln + v_a.v_b/2    [Chandrashekar 2013]"""
+    eos: Any
+
+
+class MeanPressure(NamedTuple):
+    """{P}, and its work S.(P_a v_b + P_b v_a)/2    [Ranocha 2018]"""
+    eos: Any
+
+
+class Dissipation(NamedTuple):
+    """|S|/2 R L psi T R^T Dw: of jumps in sound, entropy and shear what no straight line explains, psi = s^m;
+    points have gradients, edges lead along (dx, dy)    [Barth 1999; Jameson 1995]"""
+    eos: Any
+
+
+@formula
+def over_mean(a, b):
+    """ln(b/a)/2 over (b - a)/(b + a), by its series where both are near    [Ismail & Roe 2009]"""
+    x = (b - a)/(b + a)
+    f = x*x
+    if f > 0.01:
+        return np.log(b/a)/(2*x)
+    return 1 + f*(1/3 + f*(1/5 + f*(1/7 + f*(1/9 + f*(1/11 + f*(1/13 + f/15))))))
+
+
+@generic
+def log_means(eos, a, b):
+    """Densities and energies whose products with D(1/rho), D(1/T) are D(s) between two points: of fluids that
+    have an entropy s."""
+
+
+log_means.of(IdealGas)(lambda eos, a, b: (0.5*(a.rho + b.rho)/over_mean(a.rho, b.rho),
+                                          eos.cv*2*a.T*b.T/(a.T + b.T)*over_mean(a.T, b.T)))
+
+
+@pair_term(Logarithmic, 4)
+def _(term, a, b, ab):
+    rho, e = log_means(term.eos, a, b)
+    m = rho*(ab.sx*(a.vx + b.vx) + ab.sy*(a.vy + b.vy))
+    return -m, -0.5*m*(a.vx + b.vx), -0.5*m*(a.vy + b.vy), -m*(e + 0.5*(a.vx*b.vx + a.vy*b.vy))
+
+
+@pair_term(MeanPressure, 4)
+def _(term, a, b, ab):
+    P_a, P_b = pressure_of(term.eos, a.rho, a.T), pressure_of(term.eos, b.rho, b.T) + b.hydro
+    P = P_a + P_b - 2*a.P
+    return 0.0, -ab.sx*P, -ab.sy*P, -P_a*(ab.sx*b.vx + ab.sy*b.vy) - P_b*(ab.sx*a.vx + ab.sy*a.vy)
+
+
+@formula
+def bend(d, one, other, jump):
+    """psi of a difference d along an edge, twice what gradients at its ends say of it; and what van Albada's
+    mean of the differences before and behind leaves of d. jump : which is dissipated, where it is not d."""
+    a, c = one - d, other - d
+    s = abs(a - 2*d + c)/(abs(a) + 2*max(abs(d), abs(jump)) + abs(c) + 1e-300)
+    line = max(a*c, 0.0)*(a + c)*d/((a*a + c*c)*d*d + 1e-300)
+    return s**STEEP, min(1.0, max(0.0, 1 - line))
+
+
+@formula
+def calm(d, one, other, scale):
+    """Is psi below CALM, or all of it round-off?"""
+    return abs(one + other - 4*d) <= STILL*(abs(one - d) + 2*abs(d) + abs(other - d)) + ROUNDING*scale
+
+
+@pair_term(Dissipation, 4)
+def _(term, a, b, ab):
+    sx, sy, x, y, mean = ab.sx, ab.sy, 2*ab.dx, 2*ab.dy, 0.5*(a.rho + b.rho)
+    drho, du, dv, weight = b.rho - a.rho, b.vx - a.vx, b.vy - a.vy, mean*b.g
+    # to an image: pressure less the weight above, so that what leaves there comes back by its parent
+    dP = b.P - a.P + mean*b.hydro/b.rho + weight*ab.dy
+    r0, r1 = x*a.rho_x + y*a.rho_y, x*b.rho_x + y*b.rho_y
+    P0, P1 = x*a.P_x + y*(a.P_y + weight), x*b.P_x + y*(b.P_y - weight)
+    u0, u1, v0, v1 = x*a.u_x + y*a.u_y, x*b.u_x + y*b.u_y, x*a.v_x + y*a.v_y, x*b.v_x + y*b.v_y
+    c2, both, speed = a.c*b.c, a.P + b.P, (abs(sx) + abs(sy))*(a.c + b.c)
+    if (STEEPEST*abs(P0 + P1 - 4*dP) <= CALM*both and calm(dP, P0, P1, both)
+            and calm(c2*drho - dP, c2*r0 - P0, c2*r1 - P1, both)
+            and calm(sx*du + sy*dv, sx*u0 + sy*v0, sx*u1 + sy*v1, speed)
+            and calm(sx*dv - sy*du, sx*v0 - sy*u0, sx*v1 - sy*u1, speed)):
+        return 0.0, 0.0, 0.0, 0.0
+    return waves(term.eos, a, b, ab, (dP, P0, P1), (drho, r0, r1), (du, u0, u1), (dv, v0, v1))
+
+
+@jit
+def waves(eos, a, b, ab, P, r, by_x, by_y):
+    """What jumps in sound, along the normal, in entropy and in shear bring; differences as in `bend`."""
+    size, cv, gamma = np.sqrt(ab.sx*ab.sx + ab.sy*ab.sy), eos.cv, 1 + 1/eos.cv
+    nx, ny = ab.sx/max(size, 1e-300), ab.sy/max(size, 1e-300)
+    (dP, P0, P1), (drho, r0, r1), (du, u0, u1), (dv, v0, v1) = P, r, by_x, by_y
+    rho, e = log_means(eos, a, b)
+    u, v, mean, dbeta = 0.5*(a.vx + b.vx), 0.5*(a.vy + b.vy), 0.5*(a.rho + b.rho), 1/b.T - 1/a.T
+    un, ut, dun, dut = u*nx + v*ny, v*nx - u*ny, du*nx + dv*ny, dv*nx - du*ny
+    c2 = gamma*2*mean/(1/a.T + 1/b.T)/rho
+    of_P, P_line = bend(dP, P0, P1, b.P - a.P)
+    of_n, n_line = bend(dun, u0*nx + v0*ny, u1*nx + v1*ny, dun)
+    of_t, _ = bend(dut, v0*nx - u0*ny, v1*nx - u1*ny, dut)
+    of_s, s_line = bend(drho - dP/c2, r0 - P0/c2, r1 - P1/c2, drho - (b.P - a.P)/c2)
+    sigma = min(1.0, STEEPEST*abs(P0 + P1 - 4*dP)/(a.P + b.P))
+    flow, fast = np.sqrt(u*u + v*v), fastest(a, b, ab)
+    slow, jump = size*np.sqrt(un*un + (SLOW*flow)**2), drho/rho + dbeta*e       # of -s
+    sound = fast*max(of_P, sigma*P_line)*rho/gamma*(jump - c2*cv*dbeta)
+    across = fast*min(1.0, max(flow/np.sqrt(c2), sigma))*max(of_n, sigma*n_line)*mean*dun
+    heat, along = slow*max(of_s, sigma*s_line)*rho*(gamma - 1)/gamma*jump, slow*of_t*mean*dut
+    m = sound + heat
+    return (m, m*u + across*nx - along*ny, m*v + across*ny + along*nx,
+            0.5*m*(a.vx*b.vx + a.vy*b.vy) + sound*c2*cv + across*un + along*ut)
+
+
+@formula
+def fastest(a, b, ab):
+    """|S|/2 (|v.n| + c) of the faster one of two points."""
+    size = np.sqrt(ab.sx*ab.sx + ab.sy*ab.sy)
+    return max(abs(ab.sx*a.vx + ab.sy*a.vy) + size*a.c, abs(ab.sx*b.vx + ab.sy*b.vy) + size*b.c)

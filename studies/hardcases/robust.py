@@ -1,0 +1,133 @@
+"""What a flux that survives takes, and what it costs smooth flows: Riemann problems, and pairs of methods.
+
+A gas on the left of the middle meets another one on its right, without viscosity, in a strip so long that
+what comes round does not reach the quarter of it that is looked at. Cells are those of Toro's unit of length.
+"""
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import product
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from continuum.exact.riemann import GasState, solution
+from continuum.fluid import ConstEta
+from particles.fields import Fields, kinetic_energy
+from studies.build import SCENES, ready, variant
+from studies.build.answers import answer, duration
+from studies.build.scenes import Scene, Start
+from studies.hardcases.survival import followed
+from studies.hardcases.tubes import DENSE, EOS, GAMMA, HEIGHT, NAMES, THIN, wiggles
+from studies.kit.case import Case, Outcome, Report
+
+PAIRS = {name: f"{name}-entropy-stable" for name in ("fixed-lattice", "fixed-jittered-delaunay")}
+STABLE = tuple(PAIRS.values())
+SAMPLES = 30
+#: scene, numbers of rows, pairs; convection of irregular points would take a quarter of an hour
+SMOOTH = (("rayleigh-benard", (48,), 1), ("taylor-green", (32, 64), 2), ("sound", (32,), 2))
+
+
+class Problem(NamedTuple):
+    """Both gases, and when they are looked at; waves have then gone half a unit at most."""
+    left: GasState
+    right: GasState
+    time: float
+
+
+#: Toro's have two digits of their time; a vacuum of a millionth; cold gases that meet at Mach 27
+PROBLEMS = {
+    "Sod": Problem(DENSE, THIN, 0.2),
+    "Toro 1": Problem(GasState(1.0, 0.75, 1.0), GasState(0.125, 0.0, 0.1), 0.2),
+    "Toro 2": Problem(GasState(1.0, -2.0, 0.4), GasState(1.0, 2.0, 0.4), 0.15),
+    "Toro 3": Problem(GasState(1.0, 0.0, 1000.0), GasState(1.0, 0.0, 0.01), 0.012),
+    "Toro 4": Problem(GasState(5.99924, 19.5975, 460.894), GasState(5.99242, -6.19633, 46.095), 0.035),
+    "Toro 5": Problem(GasState(1.0, -19.59745, 1000.0), GasState(1.0, -19.59745, 0.01), 0.012),
+    "vacuum 1e-6": Problem(GasState(1.0, 0.0, 1.0), GasState(1e-6, 0.0, 1e-6), 0.08),
+    "collision": Problem(GasState(1.0, 1.0, 1e-3), GasState(1.0, -1.0, 1e-3), 0.4),
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Strip(Scene):
+    """A problem in a strip of four units, the gases meet at x = 0."""
+    problem: Problem
+    cells: int
+    eos: Any = EOS
+    law: ConstEta = ConstEta(0.0, 0.0)  # noqa: RUF009 (immutable)
+    L: float = HEIGHT
+
+    @property
+    def width(self) -> float:  # type: ignore[override]
+        return 4.0*self.cells
+
+    def fields(self, x: np.ndarray) -> Start:
+        rho, v, P = np.where(x[:, 0] < 0, *(np.array(gas)[:, None] for gas in self.problem[:2]))
+        return rho, np.stack([v, 0*v], axis=1), P/rho
+
+
+@dataclass(frozen=True, kw_only=True)
+class Riemann(Case):
+    """One problem by one method, so many spacings to the unit."""
+    method: str
+    problem: str
+    cells: int
+    seed: int = 1
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        strip, key = Strip(problem=PROBLEMS[self.problem], cells=self.cells), vars(self)
+        prepared = variant(self.method).ready(strip, self.seed)
+        left, right, time = strip.problem
+        x = prepared.method.x[:, 0]/self.cells
+        seen, exact = np.abs(x) < 0.5, solution(left, right, GAMMA, x/time)
+
+        def look(at: Fields) -> np.ndarray:
+            return np.array([at.rho, at.v[:, 0], at.rho*at.T])
+        course = followed(prepared, time*self.cells, 1, look, report)
+        row = {name: key[name] for name in ("method", "problem", "cells", "seed")}
+        row["reached"] = course.reached
+        if course.reached < 1:
+            return Outcome({"riemann": [row]})
+        V, errors = prepared.method.edges.V[seen], np.abs(course.seen[-1] - exact)[:, seen]
+        order = np.argsort(x[seen], kind="stable")
+        row |= dict(zip((f"{name}_exact" for name in NAMES), errors@V/V.sum()/np.ptp(exact[:, seen], axis=1)))
+        level = (course.seen[-1][1][seen][order], exact[1][seen][order])
+        mean = [q[:len(q)//int(HEIGHT)*int(HEIGHT)].reshape(-1, int(HEIGHT)).mean(axis=1) for q in level]
+        return Outcome({"riemann": [row | {"wiggles": wiggles(*mean)}]})
+
+
+@dataclass(frozen=True, kw_only=True)
+class SmoothFlow(Case):
+    """K of convection at Ra 10 000, else the rms error of velocities over the fastest of the start."""
+    method: str
+    scene: str
+    rows: int
+
+    @property
+    def cost(self) -> float:
+        return 2e-3*self.rows**3
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        scene = SCENES[self.scene](self.rows)
+        made, (times, unit) = ready(scene, self.method), duration(scene)
+        place = made.method.x
+        known = answer(scene, place)
+        exact = np.stack([known.get(name, np.zeros(len(place))) for name in ("vx", "vy")], axis=1)
+        fastest = np.abs(exact).max() if known else 1.0
+
+        def look(at: Fields) -> float:
+            return float(np.sqrt(((at.v - exact)**2).mean())/fastest) if known else kinetic_energy(at)
+        value = followed(made, times*unit, SAMPLES, look, report).seen[-1]
+        return Outcome({"smooth_flows": [{"scene": self.scene, "method": self.method, "rows": self.rows,
+                                          "value": value}]})
+
+
+def cases() -> Iterator[Case]:
+    """Several sizes of Sod's tube, several starts of points that lie as a seed says."""
+    for method, problem in product(STABLE, PROBLEMS):
+        for cells in {"Sod": (50, 100, 200)}.get(problem, (100,)):
+            for seed in range(1, 4 if "jittered" in method and cells == 100 else 2):
+                yield Riemann(method=method, problem=problem, cells=cells, seed=seed)
+    for scene, rows, pairs in SMOOTH:
+        for count, pair in product(rows, list(PAIRS.items())[:pairs]):
+            yield from (SmoothFlow(method=method, scene=scene, rows=count) for method in pair)

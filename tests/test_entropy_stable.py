@@ -1,0 +1,107 @@
+"""A flux that survives: what it keeps on any closed edges, what its dissipation and its limits may not do."""
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from continuum.fluid import ConstEta, DenseFluid, IdealGas
+from continuum.scene import RayleighBenard
+from particles.integral.edges import NONE_BEYOND
+from particles.integral.entropy_fluxes import Dissipation, Logarithmic, MeanPressure
+from particles.integral.entropy_stable import Positive, StableLayer
+from particles.integral.exchange import Pressure
+from particles.integral.points import random
+from particles.integral.triangulation import delaunay
+from particles.run import Plan, run
+from particles.threads import Threads
+from studies.build import SCENES, ready
+
+GAS, POINTS = IdealGas(2.5), random((12, 10), 0.4, 1)
+EX, EC, M = (Logarithmic(GAS), Pressure(GAS)), (Logarithmic(GAS), MeanPressure(GAS)), Dissipation(GAS)
+
+
+def closed(*flow):
+    """A gas without viscosity on random points, their edges closed."""
+    return StableLayer(x=POINTS.x, edges=delaunay(POINTS), beyond=NONE_BEYOND, eos=GAS, law=ConstEta(0, 0),
+                       g=0.0, T_plates=(1.0, 1.0), flow=flow)
+
+
+def violent(method, seed=2, size=1.0):
+    """Densities and temperatures that differ a hundredfold, flow at several times the speed of sound."""
+    rng, n = np.random.default_rng(seed), len(method.x)
+    rho, T = np.exp(size*rng.normal(0, 1, (2, n)))
+    return method.state(rho, rng.normal(0, 3*size, (n, 2)), T)
+
+
+def evaluated(method, state):
+    sums, rates = method.start(state.shape[1], Threads(1)), np.empty_like(state)
+    sums.rates(state, rates)
+    return sums, rates
+
+
+def entropy_variables(rho, v, T, cv=GAS.cv):
+    """d(-rho s)/d(rho, p, eps), (4, ...), s = c_v ln T - ln rho."""
+    return np.array([cv + 1 - cv*np.log(T) + np.log(rho) - (v**2).sum(axis=0)/(2*T), *v/T, -1/T])
+
+
+def production(method, state):
+    """d/dt of sum -V rho s, and the sum of the sizes of its parts."""
+    (_, rates), at = evaluated(method, state), method.fields(state)
+    parts = method.edges.V*entropy_variables(at.rho, at.v.T, at.T)*rates
+    return parts.sum(), np.abs(parts).sum()
+
+
+@pytest.mark.parametrize("flow", [EX, EC], ids=["crossed", "mean"])
+def test_fluxes_keep_entropy_on_any_closed_edges(flow):
+    for seed in range(4):
+        made, size = production(closed(*flow), violent(closed(*flow), seed))
+        assert abs(made) < 1e-14*size
+
+
+def test_dissipation_never_destroys_entropy():
+    for seed, size in ((1, 1.0), (2, 0.3), (3, 0.01)):
+        made, scale = production(closed(*EX, M), violent(closed(*EX, M), seed, size))
+        assert made < -1e-3*scale
+
+
+def test_mean_pressure_keeps_a_contact_that_moves_and_dissipation_one_at_rest():
+    rho = np.exp(np.random.default_rng(1).normal(0, 1, len(POINTS.x)))
+    v = np.tile([1.0, 2.0], (len(rho), 1))
+    _, rates = evaluated(closed(*EC), closed().state(rho, v, 1/rho))
+    assert np.allclose(rates[1:], [[1], [2], [2.5]]*rates[0], atol=1e-13)
+    _, rates = evaluated(closed(M), closed().state(rho, 0*v, 1/rho))
+    assert np.abs(rates).max() < 1e-13
+
+
+@pytest.mark.parametrize("name", ["fixed-lattice-entropy-stable", "fixed-jittered-delaunay-entropy-stable"])
+def test_no_start_is_too_violent_and_sums_are_kept(name):
+    """Also through the limiter, at images and in a step far too long, which is halved."""
+    layer = ready(RayleighBenard(ra=1e4, L=8.0), name).method
+    for method in (replace(layer, law=ConstEta(0, 0)), closed()):
+        state, V = violent(method), method.edges.V
+        sums, begun = method.start(state.shape[1], Threads(1)), state@V
+        longest = sums.longest
+        sums.longest = lambda longest=longest: 20*longest()
+        sums.look_at(state)
+        Positive(state.shape, Threads(1)).step(sums, state, 40*longest())
+        assert sums.limited and sums.refused and not sums.fault(state, np.arange(state.shape[1]))
+        kept = [0] if method.g else [0, 1, 2, 3]
+        assert np.allclose((state@V)[kept], begun[kept], rtol=0, atol=1e-11*np.abs(begun).max())
+
+
+def test_smooth_flow_is_of_second_order():
+    errors = []
+    for rows in (12, 24):
+        scene = SCENES["taylor-green"](rows)
+        method, start, dt = ready(scene, "fixed-lattice-entropy-stable")
+        steps = int(scene.time/dt) + 1
+        at = method.fields(run(method, start, Plan(dt=scene.time/steps, steps=steps)).state)
+        errors.append(np.sqrt(np.mean((at.v[:, 0] - scene.answer(at.x)["vx"])**2)))
+    assert np.log2(errors[0]/errors[1]) > 1.9
+
+
+def test_fluids_without_an_entropy_and_plates_that_slide_are_refused():
+    with pytest.raises(TypeError, match=r"DenseFluid has no formula for log_means: add @log_means\.of"):
+        replace(closed(), eos=DenseFluid())
+    with pytest.raises(ValueError, match=r"cannot take slide = 0\.1"):
+        ready(SCENES["couette"](8), "fixed-lattice-entropy-stable")
