@@ -12,6 +12,7 @@ from continuum.gas.solve import steady_on
 from continuum.scene import RayleighBenard, Torus
 from particles.limits import step_limit
 from particles.observe import PlateHeat, field_kinetic, heat_flow, particle_kinetic
+from particles.smooth.corrected import Corrected, Reversed, Symmetrised
 from particles.smooth.spam import LessStatic, Spam
 from particles.smooth.sums import Direct, Nested
 from particles.terms import ArithmeticGradients, Gradients
@@ -118,6 +119,13 @@ VARIANTS = {v.name: v for v in (
     Variant("wendland-c6", weight=WendlandC6),
     Variant("range-4", h=4.0),
     Variant("range-6", h=6.0),
+)}
+#: what people use today: friction and heat along pairs, images whose mean with the particle is the plate's
+TODAY = {v.name: v._replace(weight=WendlandC2, walls=images_odd) for v in (
+    Variant("sph", transport=Direct),
+    Variant("sumB", transport=Corrected),
+    Variant("RKGC", transport=Reversed),
+    Variant("bonet-lok", transport=Symmetrised),
 )}
 
 

@@ -13,7 +13,7 @@ from continuum.scene import Periodic, RayleighBenard, Walls
 from particles.weights import Lucy, Monaghan, WendlandC2, WendlandC4, WendlandC6
 from studies.build.grid import FORMS
 from studies.build.measure import Smoothing
-from studies.build.spam import PRINTED, VARIANTS, Variant
+from studies.build.spam import PRINTED, TODAY, VARIANTS, Variant
 from studies.kit.case import Case
 from studies.rb.points import points
 from studies.rb.runs.arithmetic import SUBJECTS, WithoutFlow
@@ -168,6 +168,13 @@ def more() -> Iterator[Case]:
         yield from spam(5e3, 50, variant=VARIANTS[name])
 
 
+def today() -> Iterator[Case]:
+    """Smooth particles as people use them; means from where the start has rung out."""
+    for rows in (25, 35, 50, 70):
+        for name in ("sumB", "RKGC") if rows == 70 else TODAY:
+            yield from spam(1e4, rows, variant=TODAY[name], mean_from=60.0)
+
+
 def fine() -> Iterator[Case]:
     """Every variant at two sizes (of pressure at two Ra), finer particles, higher Ra, long grids."""
     for name in sorted(set(VARIANTS) - {"printed", "printed-half-step", "printed-from-flow"}):
@@ -180,6 +187,7 @@ def fine() -> Iterator[Case]:
     yield from checks()
     yield from changed(5e3)
     yield from more()
+    yield from today()
     for ra, rows in product((1500.0, 2500.0, 20000.0), (25, 35)):
         yield from spam(ra, rows)
     for ra in (2500.0, 10000.0):
