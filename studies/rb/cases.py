@@ -170,8 +170,9 @@ def more() -> Iterator[Case]:
 
 def today() -> Iterator[Case]:
     """Smooth particles as people use them; means from where the start has rung out."""
-    for rows in (25, 35, 50, 70):
-        for name in ("sumB", "RKGC") if rows == 70 else TODAY:
+    for name, sizes in {"sumB": (25, 35, 50, 70), "RKGC": (25, 35, 50), "sph": (25, 35, 50),
+                        "bonet-lok": (25, 35)}.items():
+        for rows in sizes:
             yield from spam(1e4, rows, variant=TODAY[name], mean_from=60.0)
 
 
