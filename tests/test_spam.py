@@ -8,7 +8,7 @@ import pytest
 from crowd import crowd, everywhere, prepare, rates
 
 from continuum.fluid import EQUATIONS_OF_STATE, ConstEta, ConstNu, DenseFluid, IdealGas, PowerLaw, VanDerWaals
-from particles.smooth.corrected import Corrected, Reversed, Symmetrised
+from particles.smooth.corrected import AllCorrected, Corrected, Reversed, Symmetrised
 from particles.smooth.spam import LessStatic, Spam
 from particles.smooth.sums import Direct, Nested
 from particles.terms import ArithmeticGradients
@@ -101,7 +101,7 @@ COMPANY = [free(weight, eos, ETA) for weight,
            eos in zip(WEIGHTS.values(), cycle(EQUATIONS_OF_STATE.values()))]
 COMPANY += [free(gradients=ArithmeticGradients()), free(transport=Direct),
             free(WendlandC2, VanDerWaals(), POWER)]
-COMPANY += [free(WendlandC2, law=POWER, transport=kind) for kind in (Corrected, Reversed, Symmetrised)]
+COMPANY += [free(WendlandC2, law=POWER, transport=kind) for kind in (AllCorrected, Corrected, Reversed, Symmetrised)]
 each = pytest.mark.parametrize("spam", COMPANY, ids=lambda s: " ".join(
     [type(s.weight).__name__, type(s.eos).__name__, type(s.law).__name__, type(s.gradients).__name__,
      s.transport.__name__]))

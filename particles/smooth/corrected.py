@@ -9,7 +9,8 @@ deviator where particles were sheared, which a fluid has not. Pairs push by V_i 
     RKGC       A = B_j grad_i w, C = B_i grad_i w              [Zhang, Adams & Hu 2024, there relaxed first]
     symmetric  A = C = (B_i + B_j)/2 grad_i w                  [Bonet & Lok 1999]
 
-Friction and heat go along pairs; what such friction lacks of a fluid's stress, tau = eta ((-d_y v, d_y u),
+Friction and heat go along pairs, where M_i makes them tr M_i/2 times as large as they should be: `All`
+corrects these, too    [Schwaiger 2008, its first factor, made symmetric]. What friction along pairs lacks of a fluid's stress, tau = eta ((-d_y v, d_y u),
 (d_x v, -d_x u)), acts over A + C. Without it even a rigid rotation heats. Momentum and energy are closed pair
 by pair: P_i A does its work on i, P_j C on j, friction half of it on each.
 """
@@ -47,12 +48,25 @@ class Symmetric(NamedTuple):
     """(P_i + P_j) (B_i + B_j)/2."""
 
 
+class All(NamedTuple):
+    """As `SumB`; friction and heat over the mean of tr M_i/2 and tr M_j/2, to first order in M - 1."""
+
+
+@generic
+def gain(term, a, b):
+    """Friction and heat along a pair over those of `Direct`."""
+
+
 @generic
 def areas(term, own, other):
     """(A, C) from B_a grad w and B_b grad w, (x, y) each."""
 
 
-areas.of(SumB)(lambda term, own, other: (own, other))
+for kind in (SumB, Reverse, Symmetric):
+    gain.of(kind)(lambda term, a, b: 1.0)
+gain.of(All)(lambda term, a, b: 0.25*(a.Bxx + a.Byy + b.Bxx + b.Byy))
+for kind in (SumB, All):
+    areas.of(kind)(lambda term, own, other: (own, other))
 areas.of(Reverse)(lambda term, own, other: (other, own))
 
 
@@ -75,7 +89,7 @@ def push(term, a, b, ab):
     f = a.irho*b.irho
     A, C = areas(term, turned(a, f*ab.wx, f*ab.wy), turned(b, f*ab.wx, f*ab.wy))
     # two particles in one place exert no force on each other
-    F = f*(x*ab.wx + y*ab.wy)/max(x*x + y*y, 1e-300)
+    F = gain(term, a, b)*f*(x*ab.wx + y*ab.wy)/max(x*x + y*y, 1e-300)
     drag, Sx, Sy = (a.eta + b.eta)*F, 0.5*(A[0] + C[0]), 0.5*(A[1] + C[1])
     fx = drag*u + Sx*(a.xx + b.xx) + Sy*(a.yx + b.yx)
     fy = drag*v + Sx*(a.xy + b.xy) + Sy*(a.yy + b.yy)
@@ -89,7 +103,7 @@ def turned(a, x, y):
     return a.Bxx*x + a.Bxy*y, a.Bxy*x + a.Byy*y
 
 
-for kind in (SumB, Reverse, Symmetric):
+for kind in (SumB, Reverse, Symmetric, All):
     pair_term(kind, 3)(push)
 
 
@@ -122,6 +136,10 @@ class Reversed(Corrected):
 
 class Symmetrised(Corrected):
     term = Symmetric()
+
+
+class AllCorrected(Corrected):
+    term = All()
 
 
 @jit

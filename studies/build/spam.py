@@ -12,7 +12,7 @@ from continuum.gas.solve import steady_on
 from continuum.scene import RayleighBenard, Torus
 from particles.limits import step_limit
 from particles.observe import PlateHeat, field_kinetic, heat_flow, particle_kinetic
-from particles.smooth.corrected import Corrected, Reversed, Symmetrised
+from particles.smooth.corrected import AllCorrected, Corrected, Reversed, Symmetrised
 from particles.smooth.spam import LessStatic, Spam
 from particles.smooth.sums import Direct, Nested
 from particles.terms import ArithmeticGradients, Gradients
@@ -126,6 +126,8 @@ TODAY = {v.name: v._replace(weight=WendlandC2, walls=images_odd) for v in (
     Variant("sumB", transport=Corrected),
     Variant("RKGC", transport=Reversed),
     Variant("bonet-lok", transport=Symmetrised),
+    Variant("corrected", transport=AllCorrected),
+    Variant("corrected-half-step", transport=AllCorrected, step=OF_LIMIT/2),
 )}
 
 

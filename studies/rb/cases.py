@@ -63,6 +63,8 @@ def seen_by(scene: RayleighBenard) -> Iterator[Smoothing]:
     if scene.ra in (3e3, 5e3, 1e4) and not in_box:
         for (weight, h), rows in product(SEEN, (16, 25, 50)):
             yield Smoothing(weight, h, rows)
+        for rows in (35, 70):
+            yield Smoothing(WendlandC2, 3.0, rows)
 
 
 def cases(size: str) -> list[Case]:
@@ -170,8 +172,8 @@ def more() -> Iterator[Case]:
 
 def today() -> Iterator[Case]:
     """Smooth particles as people use them; means from where the start has rung out."""
-    for name, sizes in {"sumB": (25, 35, 50, 70), "RKGC": (25, 35, 50), "sph": (25, 35, 50),
-                        "bonet-lok": (25, 35)}.items():
+    for name, sizes in {"sph": (25, 35, 50), "RKGC": (25, 35), "bonet-lok": (25, 35), "sumB": (25, 35, 50),
+                        "corrected": (25, 35, 50, 70), "corrected-half-step": (25, 35)}.items():
         for rows in sizes:
             yield from spam(1e4, rows, variant=TODAY[name], mean_from=60.0)
 
