@@ -10,9 +10,10 @@ deviator where particles were sheared, which a fluid has not. Pairs push by V_i 
     symmetric  A = C = (B_i + B_j)/2 grad_i w                  [Bonet & Lok 1999]
 
 Friction and heat go along pairs, where M_i makes them tr M_i/2 times as large as they should be: `All`
-corrects these, too    [Schwaiger 2008, its first factor, made symmetric]. What friction along pairs lacks of a fluid's stress, tau = eta ((-d_y v, d_y u),
-(d_x v, -d_x u)), acts over A + C. Without it even a rigid rotation heats. Momentum and energy are closed pair
-by pair: P_i A does its work on i, P_j C on j, friction half of it on each.
+corrects that, too    [Schwaiger 2008, its first factor, made symmetric]. What friction along pairs lacks of a
+fluid's stress, tau = eta ((-d_y v, d_y u), (d_x v, -d_x u)), acts over A + C: without it even a rigid rotation
+heats. Momentum and energy are closed pair by pair: P_i A does its work on i, P_j C on j, friction half of it
+on each.
 """
 from typing import Any, ClassVar, NamedTuple
 
