@@ -168,7 +168,8 @@ def rates(method: Spam, state: np.ndarray) -> Rates:
     p, n = points(method, state), state.shape[1]
     _, grad_w = pairs(method, p.x, p.rows)
     grad_v, grad_T = gradients(method, p, grad_w)
-    a, heat = {Nested: nested, Direct: direct}.get(method.transport, corrected)(method, p, grad_w[:n], grad_v, grad_T)
+    exchange = {Nested: nested, Direct: direct}.get(method.transport, corrected)
+    a, heat = exchange(method, p, grad_w[:n], grad_v, grad_T)
     rho = p.rho[:n]
     a[:, 1] -= method.g*(1 - method.static.fraction*method.static.rho0/rho)
     heat -= static_pressure(method, state[1])/rho*np.trace(grad_v[:n], axis1=1, axis2=2)

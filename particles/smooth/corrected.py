@@ -11,7 +11,7 @@ deviator where particles were sheared, which a fluid has not. Pairs push by V_i 
 
 Friction and heat go along pairs, where M_i makes them tr M_i/2 times as large as they should be: `All`
 corrects that, too    [Schwaiger 2008, its first factor, made symmetric]. What friction along pairs lacks of a
-fluid's stress, tau = eta ((-d_y v, d_y u), (d_x v, -d_x u)), acts over A + C: without it even a rigid rotation
+fluid's stress, tau = eta ((-d_y v, d_y u), (d_x v, -d_x u)), acts over A + C: without it rigid rotation
 heats. Momentum and energy are closed pair by pair: P_i A does its work on i, P_j C on j, friction half of it
 on each.
 """
