@@ -15,6 +15,7 @@ from studies.rb.tables import POINT, SCENE, STILL
 
 Row = dict[Any, Any]
 GRIDS = ("compressible", "boussinesq", "pypde-compressible")
+CORRECTED = ("sumB", "corrected")       # smooth particles that may have a limit
 SERIES = [name for name in POINT if name != "resolution"]
 ENERGIES = ["ke", "ke_field", "ke_mean", "nu"]
 HALF = "-half-step"
@@ -55,7 +56,8 @@ def extrapolated(runs: pd.DataFrame) -> Iterator[Row]:
     Grids and lattices have no chance in them; of sets of points that differ each run counts by itself.
     """
     settled = runs[runs.converged.astype(str) == "True"]
-    series = settled[settled.method.isin([*GRIDS, "dih"])].sort_values("resolution")
+    series = settled[settled.method.isin([*GRIDS, "dih"]) | settled.variant.isin(CORRECTED)]
+    series = series.sort_values("resolution")
     for point, group in series.groupby(SERIES, dropna=False):
         if group.resolution.nunique() < 3 or group.rolls.nunique() > 1:
             continue
