@@ -41,8 +41,8 @@ CLAIMS = (
                     "extrapolated over 1/rows^2, Ra 10 000"),
     Claim(id="own-today-corrected-limit", source=SCHWAIGER, value=abs(error("corrected")), at_most=0.005,
           after=FIXED, because="0.5 %: points that scatter are good to that",
-          statement="with friction and heat corrected, too, they do: |K/K_grid - 1|, extrapolated, Ra 10 000"),
+          statement="with friction and heat corrected, too, they do: |K/K_grid - 1| extrapolated, Ra 1e4"),
     Claim(id="own-today-corrected-order", source=SCHWAIGER, value=of(order), expect=2, within=0.4,
           after=FIXED, because="second order, seen through seeds over a factor of three in rows",
-          statement="their error of K falls as the square of the spacing: order over 25 to 70 rows, Ra 10 000"),
+          statement="their error of K falls as the square of the spacing: order, 25 to 70 rows, Ra 10 000"),
 )
