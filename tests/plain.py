@@ -167,7 +167,7 @@ def rates(method: Spam, state: np.ndarray) -> Rates:
     """All three sums of KHP95, Sec. II, or of the variants that the method names."""
     p, n = points(method, state), state.shape[1]
     _, grad_w = pairs(method, p.x, p.rows)
-    grad_v, grad_T = gradients(method, p, grad_w)
+    grad_v, grad_T = (corrected_gradients if method.transport in AREAS else gradients)(method, p, grad_w)
     exchange = {Nested: nested, Direct: direct}.get(method.transport, corrected)
     a, heat = exchange(method, p, grad_w[:n], grad_v, grad_T)
     rho = p.rho[:n]
@@ -222,13 +222,25 @@ AREAS = {Corrected: (1, 0, False), Reversed: (0, 1, False), Symmetrised: (0.5, 0
          AllCorrected: (1, 0, True)}
 
 
+def inverse(method: Spam, p: Points, grad_w):
+    """B of the rows: the inverse of sum_j V_j (x_j - x_i) grad_i w."""
+    return np.linalg.inv(np.einsum("j,ija,ijb->iab", method.m/p.rho, p.x[None] - p.x[:p.rows, None], grad_w))
+
+
+def corrected_gradients(method: Spam, p: Points, grad_w):
+    """B_i sum_j V_j (f_j - f_i) grad_i w_ij, of v and T."""
+    B, V = inverse(method, p, grad_w), method.m/p.rho
+    dv, dT = (q[None] - q[:p.rows, None] for q in (p.v, p.T))
+    return (B@np.einsum("j,ija,ijb->iab", V, grad_w, dv),
+            np.einsum("iab,ib->ia", B, np.einsum("j,ijb,ij->ib", V, grad_w, dT)))
+
+
 def corrected(method: Spam, p: Points, grad_w, grad_v, grad_T):
     """Pressure over A and C, made of gradients times B; friction along pairs, and tau of corrected slopes."""
-    n, V, (a, c, everywhere) = len(grad_w), method.m/p.rho, AREAS[method.transport]
+    n, (a, c, everywhere) = len(grad_w), AREAS[method.transport]
     d, dv, dT = (q[None] - q[:n, None] for q in (p.x, p.v, p.T))
     B, slope = np.zeros((2, len(p.x), 2, 2))
-    B[:n] = np.linalg.inv(np.einsum("j,ija,ijb->iab", V, d, grad_w))
-    slope[:n] = B[:n]@np.einsum("j,ija,ijb->iab", V, grad_w, dv)
+    B[:n], slope[:n] = inverse(method, p, grad_w), grad_v
     for i, image in enumerate(p.made):
         if image is not None:
             plate = isinstance(image.wall, Mirror)

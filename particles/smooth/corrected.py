@@ -34,7 +34,7 @@ FAR = 2**62
 
 
 class Moments(NamedTuple):
-    """M_i (xx, xy, yy) and sum_j V_j (v_j - v_i) grad_i w: d_x u, d_y u, d_x v, d_y v, not yet corrected."""
+    """M_i (xx, xy, yy), and sum_j V_j (f_j - f_i) grad_i w, not yet corrected, of f = vx, vy, T."""
 
 
 class SumB(NamedTuple):
@@ -77,11 +77,11 @@ def _(term, own, other):
     return mean, mean
 
 
-@pair_term(Moments, 7)
+@pair_term(Moments, 9)
 def _(term, a, b, ab):
-    x, y, u, v = b.x - a.x, b.y - a.y, b.vx - a.vx, b.vy - a.vy
+    x, y, u, v, T = b.x - a.x, b.y - a.y, b.vx - a.vx, b.vy - a.vy, b.T - a.T
     wx, wy = b.irho*ab.wx, b.irho*ab.wy
-    return x*wx, x*wy, y*wy, u*wx, u*wy, v*wx, v*wy
+    return x*wx, x*wy, y*wy, u*wx, u*wy, v*wx, v*wy, T*wx, T*wy
 
 
 def push(term, a, b, ab):
@@ -114,7 +114,12 @@ class Corrected(Direct):
 
     def allocate(self, points: int) -> None:
         super().allocate(points)
-        self.records, self.moments = np.empty(points, Point), np.empty((self.around.rows, 7))
+        self.records, self.moments = np.empty(points, Point), np.empty((self.around.rows, 9))
+
+    def gradients(self) -> None:
+        """Corrected ones, for whatever is measured."""
+        self.exchange(self.less)
+        self.threads(_slopes, self.around.rows, self.moments, self.records, self.slopes)
 
     def exchange(self, less: np.ndarray) -> tuple[Any, np.ndarray]:
         around, records = self.around, self.records
@@ -155,7 +160,7 @@ def _read(first, last, law, x, y, rho, vx, vy, T, less, records):
 def _correct(first, last, moments, records):
     """B = M^-1, and tau of corrected gradients; the first row without B, or far beyond all."""
     for i in range(first, last):
-        a, (xx, xy, yy, ux, uy, vx, vy) = records[i], moments[i]
+        a, (xx, xy, yy, ux, uy, vx, vy, _, _) = records[i], moments[i]
         det = xx*yy - xy*xy
         if not det > FLAT*(xx + yy)**2:
             return i
@@ -163,6 +168,14 @@ def _correct(first, last, moments, records):
         (u_x, u_y), (v_x, v_y) = turned(a, ux, uy), turned(a, vx, vy)
         a.xx, a.xy, a.yx, a.yy = -a.eta*v_y, a.eta*u_y, a.eta*v_x, -a.eta*u_x
     return FAR
+
+
+@jit
+def _slopes(first, last, moments, records, slopes):
+    """d_x of vx, vy, T, and d_y, as `SmoothSums.gradient` has them."""
+    for i in range(first, last):
+        for k in range(3):
+            slopes[i, k], slopes[i, 4 + k] = turned(records[i], moments[i, 3 + 2*k], moments[i, 4 + 2*k])
 
 
 @jit

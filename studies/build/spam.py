@@ -94,7 +94,12 @@ class Variant(NamedTuple):
     @property
     def series(self) -> dict[str, Any]:
         return {"kp": particle_kinetic, "kg": field_kinetic, "heat": heat_flow,
-                "lower": PlateHeat(-1), "upper": PlateHeat(1)}
+                "lower": PlateHeat(-1, self.moves), "upper": PlateHeat(1, self.moves)}
+
+    @property
+    def moves(self) -> bool:
+        """Whether images move, so that their pressure works."""
+        return self.walls in (images_odd, images_odd_own)
 
 
 PRINTED = Variant("printed")
