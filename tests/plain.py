@@ -9,8 +9,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from continuum.fluid import conductivity, energy, pressure, temperature, viscosity
+from particles.smooth.corrected import AllCorrected, Corrected, Reversed, Symmetrised
 from particles.smooth.spam import Spam
-from particles.smooth.sums import Direct
+from particles.smooth.sums import Direct, Nested
 from particles.terms import ArithmeticGradients
 from particles.walls.fixed import FixedRows
 from particles.walls.mirror import Mirror, Odd, Own
@@ -166,8 +167,8 @@ def rates(method: Spam, state: np.ndarray) -> Rates:
     """All three sums of KHP95, Sec. II, or of the variants that the method names."""
     p, n = points(method, state), state.shape[1]
     _, grad_w = pairs(method, p.x, p.rows)
-    grad_v, grad_T = gradients(method, p, grad_w)
-    exchange = direct if method.transport is Direct else nested
+    grad_v, grad_T = (corrected_gradients if method.transport in AREAS else gradients)(method, p, grad_w)
+    exchange = {Nested: nested, Direct: direct}.get(method.transport, corrected)
     a, heat = exchange(method, p, grad_w[:n], grad_v, grad_T)
     rho = p.rho[:n]
     a[:, 1] -= method.g*(1 - method.static.fraction*method.static.rho0/rho)
@@ -214,3 +215,49 @@ def direct(method: Spam, p: Points, grad_w, grad_v, grad_T):
     force = -(P[:n, None] + P[None])[:, :, None]*grad_w + ((eta[:n, None] + eta[None])*F)[:, :, None]*dv
     heat = -0.5*np.einsum("ija,ija->ij", force, dv) + (k[:n, None] + k[None])*F*dT
     return method.m*force.sum(axis=1), method.m*heat.sum(axis=1)
+
+
+#: weights of B_i grad w and B_j grad w in A and C, and whether friction is corrected
+AREAS = {Corrected: (1, 0, False), Reversed: (0, 1, False), Symmetrised: (0.5, 0.5, False),
+         AllCorrected: (1, 0, True)}
+
+
+def inverse(method: Spam, p: Points, grad_w):
+    """B of the rows: the inverse of sum_j V_j (x_j - x_i) grad_i w."""
+    return np.linalg.inv(np.einsum("j,ija,ijb->iab", method.m/p.rho, p.x[None] - p.x[:p.rows, None], grad_w))
+
+
+def corrected_gradients(method: Spam, p: Points, grad_w):
+    """B_i sum_j V_j (f_j - f_i) grad_i w_ij, of v and T."""
+    B, V = inverse(method, p, grad_w), method.m/p.rho
+    dv, dT = (q[None] - q[:p.rows, None] for q in (p.v, p.T))
+    return (B@np.einsum("j,ija,ijb->iab", V, grad_w, dv),
+            np.einsum("iab,ib->ia", B, np.einsum("j,ijb,ij->ib", V, grad_w, dT)))
+
+
+def corrected(method: Spam, p: Points, grad_w, grad_v, grad_T):
+    """Pressure over A and C, made of gradients times B; friction along pairs, and tau of corrected slopes."""
+    n, (a, c, everywhere) = len(grad_w), AREAS[method.transport]
+    d, dv, dT = (q[None] - q[:n, None] for q in (p.x, p.v, p.T))
+    B, slope = np.zeros((2, len(p.x), 2, 2))
+    B[:n], slope[:n] = inverse(method, p, grad_w), grad_v
+    for i, image in enumerate(p.made):
+        if image is not None:
+            plate = isinstance(image.wall, Mirror)
+            R = np.diag([-1.0 if plate and axis == image.wall.axis else 1.0 for axis in (0, 1)])
+            B[i], slope[i] = R@B[image.of]@R, (-R if plate else R)@slope[image.of]
+    eta, k = (np.array([f(method.law, rho, T) for rho, T in zip(p.rho, p.T)])
+              for f in (viscosity, conductivity))
+    div = np.trace(slope, axis1=1, axis2=2)[:, None, None]
+    tau = eta[:, None, None]*(np.swapaxes(slope, 1, 2) - div*np.eye(2))
+    f = 1/p.rho[:n, None]/p.rho[None]
+    own, other = np.einsum("ij,iab,ijb->ija", f, B[:n], grad_w), np.einsum("ij,jab,ijb->ija", f, B, grad_w)
+    A, C = a*own + c*other, c*own + a*other
+    r2, halves = (d**2).sum(axis=2), np.trace(B, axis1=1, axis2=2)/2
+    F = f*np.einsum("ija,ija->ij", d, grad_w)/np.where(r2 > 0, r2, 1)
+    F *= (halves[:n, None] + halves[None])/2 if everywhere else 1
+    rub = ((eta[:n, None] + eta[None])*F)[:, :, None]*dv
+    rub += np.einsum("ija,ijab->ijb", (A + C)/2, tau[:n, None] + tau[None])
+    force = rub - p.P[:n, None, None]*A - p.P[None, :, None]*C
+    work = 0.5*(rub*dv).sum(axis=2) - p.P[:n, None]*(A*dv).sum(axis=2)
+    return method.m*force.sum(axis=1), method.m*(work + (k[:n, None] + k[None])*F*dT).sum(axis=1)

@@ -8,6 +8,7 @@ import pytest
 from crowd import crowd, everywhere, prepare, rates
 
 from continuum.fluid import EQUATIONS_OF_STATE, ConstEta, ConstNu, DenseFluid, IdealGas, PowerLaw, VanDerWaals
+from particles.smooth.corrected import AllCorrected, Corrected, Reversed, Symmetrised
 from particles.smooth.spam import LessStatic, Spam
 from particles.smooth.sums import Direct, Nested
 from particles.terms import ArithmeticGradients
@@ -53,6 +54,11 @@ SETUPS = {
     "direct": Setup(Lucy, IdealGas(), ETA, PERIODIC + plates(BOX[1], HOT, COLD), {"transport": Direct}),
     "direct, less static": Setup(Monaghan, DenseFluid(), ETA, PERIODIC + FIXED,
                                    {"transport": Direct, "static": LessStatic(0.6, 1.2, 1.1)}),
+    "sumB": Setup(WendlandC2, DenseFluid(), ETA, closed(Odd(), Copied()), {"transport": Corrected}),
+    "reverse": Setup(WendlandC2, IdealGas(), POWER, everywhere(BOX), {"transport": Reversed}),
+    "symmetric": Setup(WendlandC4, IdealGas(), ETA, PERIODIC + plates(BOX[1], HOT, COLD, Odd(), Own()),
+                       {"transport": Symmetrised}),
+    "corrected": Setup(WendlandC2, VanDerWaals(), ETA, closed(Odd(), Copied()), {"transport": AllCorrected}),
     "less static": Setup(WendlandC2, VanDerWaals(), NU, closed(Odd(), Own()),
                          {"static": LessStatic(1.0, 1.2, 1.1)}),
     "half static": Setup(WendlandC6, IdealGas(), ETA, PERIODIC + plates(BOX[1], HOT, COLD),
@@ -100,6 +106,8 @@ COMPANY = [free(weight, eos, ETA) for weight,
            eos in zip(WEIGHTS.values(), cycle(EQUATIONS_OF_STATE.values()))]
 COMPANY += [free(gradients=ArithmeticGradients()), free(transport=Direct),
             free(WendlandC2, VanDerWaals(), POWER)]
+COMPANY += [free(WendlandC2, law=POWER, transport=kind)
+            for kind in (AllCorrected, Corrected, Reversed, Symmetrised)]
 each = pytest.mark.parametrize("spam", COMPANY, ids=lambda s: " ".join(
     [type(s.weight).__name__, type(s.eos).__name__, type(s.law).__name__, type(s.gradients).__name__,
      s.transport.__name__]))
@@ -163,3 +171,10 @@ def test_errors_name_value_rule_and_way_out():
         rates(free(), crowd(BOX, 3, 3), threads=0)
     with pytest.raises(ValueError, match=r"lacks a part of the stress where viscosity varies.*take Nested"):
         free(law=NU, transport=Direct)
+
+
+def test_a_particle_whose_neighbours_lie_in_a_line_is_named():
+    row = crowd(BOX, COLUMNS, ROWS)[:, :5]
+    row[0], row[1] = np.arange(5) - 2.0, 1.0
+    with pytest.raises(FloatingPointError, match=r"at \(-2, 1\) lie in a line with it.*take a wider weight"):
+        rates(free(WendlandC2, transport=Corrected), row)

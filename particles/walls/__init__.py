@@ -34,6 +34,11 @@ def image_flux(wall, a, rho):
 
 
 @generic
+def mirrored(wall):
+    """The axis (0: x, 1: y) across which images are mirrored; -1 for images that are shifted."""
+
+
+@generic
 def confine(wall, state):
     """Reflect elastically what has crossed the wall, rows (x, y, vx, vy, e); their number."""
 

@@ -4,7 +4,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from continuum.jit import generic, jit
-from particles.walls import confine, image_flux, image_motion, image_point, image_pressure, parents
+from particles.walls import confine, image_flux, image_motion, image_point, image_pressure, mirrored, parents
 
 
 class AtWall(NamedTuple):
@@ -83,6 +83,7 @@ def _(wall, x, y, vx, vy, T):
     return u, v, T
 
 
+mirrored.of(Mirror)(lambda wall: wall.axis)
 image_pressure.of(Mirror)(lambda wall, own, copied: choose(wall.pressure, own, copied))
 
 
@@ -119,6 +120,7 @@ class OneSide(NamedTuple):
 
 parents.of(OneSide)(lambda wall, x, y, reach: parents(wall.mirror, x, y, reach))
 image_point.of(OneSide)(lambda wall, x, y: image_point(wall.mirror, x, y))
+mirrored.of(OneSide)(lambda wall: wall.mirror.axis)
 image_pressure.of(OneSide)(lambda wall, own, copied: image_pressure(wall.mirror, own, copied))
 confine.of(OneSide)(lambda wall, state: confine(wall.mirror, state))
 

@@ -3,7 +3,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from particles.walls import confine, image_motion, image_point, image_pressure, parents
+from particles.walls import confine, image_motion, image_point, image_pressure, mirrored, parents
 
 
 class Shift(NamedTuple):
@@ -30,6 +30,7 @@ def _(wall, x, y):
     return (x + wall.by, y) if wall.axis == 0 else (x, y + wall.by)
 
 
+mirrored.of(Shift)(lambda wall: -1)
 image_motion.of(Shift)(lambda wall, x, y, vx, vy, T: (vx, vy, T))
 image_pressure.of(Shift)(lambda wall, own, copied: copied)
 confine.of(Shift)(lambda wall, state: 0)

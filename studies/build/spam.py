@@ -12,6 +12,7 @@ from continuum.gas.solve import steady_on
 from continuum.scene import RayleighBenard, Torus
 from particles.limits import step_limit
 from particles.observe import PlateHeat, field_kinetic, heat_flow, particle_kinetic
+from particles.smooth.corrected import AllCorrected, Corrected, Reversed, Symmetrised
 from particles.smooth.spam import LessStatic, Spam
 from particles.smooth.sums import Direct, Nested
 from particles.terms import ArithmeticGradients, Gradients
@@ -93,7 +94,12 @@ class Variant(NamedTuple):
     @property
     def series(self) -> dict[str, Any]:
         return {"kp": particle_kinetic, "kg": field_kinetic, "heat": heat_flow,
-                "lower": PlateHeat(-1), "upper": PlateHeat(1)}
+                "lower": PlateHeat(-1, self.moves), "upper": PlateHeat(1, self.moves)}
+
+    @property
+    def moves(self) -> bool:
+        """Whether images move, so that their pressure works."""
+        return self.walls in (images_odd, images_odd_own)
 
 
 PRINTED = Variant("printed")
@@ -120,12 +126,21 @@ VARIANTS = {v.name: v for v in (
     Variant("range-4", h=4.0),
     Variant("range-6", h=6.0),
 )}
+#: what people use today: friction and heat along pairs, images whose mean with the particle is the plate's
+TODAY = {v.name: v._replace(weight=WendlandC2, walls=images_odd) for v in (
+    Variant("sph", transport=Direct),
+    Variant("sumB", transport=Corrected),
+    Variant("RKGC", transport=Reversed),
+    Variant("bonet-lok", transport=Symmetrised),
+    Variant("corrected", transport=AllCorrected),
+    Variant("corrected-half-step", transport=AllCorrected, step=OF_LIMIT/2),
+)}
 JOINT = "-joint"
 
 
 def variant_of(name: str, rows: float) -> Variant:
     """`-joint` in its name: the range grows as rows^(1/2)    [Zhu, Hernquist & Li 2015]"""
-    usual = VARIANTS[name.removesuffix(JOINT)]
+    usual = (VARIANTS | TODAY)[name.removesuffix(JOINT)]
     return usual._replace(name=name, h=usual.h*(rows/25)**0.5) if name.endswith(JOINT) else usual
 
 

@@ -5,7 +5,19 @@ from dataclasses import replace
 from continuum.fluid import DenseFluid, IdealGas
 from studies.hardcases.robust import PAIRS, STABLE
 from studies.hardcases.tubes import BARELY, CELL_NUMBER, STEPS
-from studies.kit.ask import Value, farthest_of, largest_of, last, least, of, one, over_seeds, power, rows, total
+from studies.kit.ask import (
+    Value,
+    farthest_of,
+    largest_of,
+    last,
+    least,
+    of,
+    one,
+    over_seeds,
+    power,
+    rows,
+    total,
+)
 from studies.kit.claim import Claim
 from studies.kit.stats import CannotTell, Measured
 from studies.kit.table import Tables

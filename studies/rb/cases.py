@@ -13,7 +13,7 @@ from continuum.scene import Periodic, RayleighBenard, Walls
 from particles.weights import Lucy, Monaghan, WendlandC2, WendlandC4, WendlandC6
 from studies.build.grid import FORMS
 from studies.build.measure import Smoothing
-from studies.build.spam import PRINTED, VARIANTS, Variant, variant_of
+from studies.build.spam import PRINTED, TODAY, VARIANTS, Variant, variant_of
 from studies.kit.case import Case
 from studies.rb.points import points
 from studies.rb.runs import grid as truth
@@ -66,6 +66,8 @@ def seen_by(scene: RayleighBenard) -> Iterator[Smoothing]:
     if scene.ra in (3e3, 5e3, 1e4) and not in_box:
         for (weight, h), rows in product(SEEN, (16, 25, 50)):
             yield Smoothing(weight, h, rows)
+        for rows in (35, 70):
+            yield Smoothing(WendlandC2, 3.0, rows)
     if scene == RayleighBenard(ra=1e4, **LAYER):
         for name, rows in product(("wendland-c2-joint", "printed-joint"), (35, 50, 70, 100)):
             view = variant_of(name, rows)
@@ -187,6 +189,14 @@ def joint() -> Iterator[Case]:
             yield from spam(1e4, rows, seeds, variant=variant_of(name, rows), keep="history")
 
 
+def today() -> Iterator[Case]:
+    """Smooth particles as people use them; means from where the start has rung out."""
+    for name, sizes in {"sph": (25, 35, 50), "RKGC": (25, 35), "bonet-lok": (25, 35), "sumB": (25, 35, 50),
+                        "corrected": (25, 35, 50, 70), "corrected-half-step": (25, 35)}.items():
+        for rows in sizes:
+            yield from spam(1e4, rows, variant=TODAY[name], mean_from=60.0)
+
+
 def fine() -> Iterator[Case]:
     """Every variant at two sizes (of pressure at two Ra), finer particles, higher Ra, long grids."""
     elsewhere = {"printed", "printed-half-step", "printed-from-flow", "wendland-c2-walls-odd"}
@@ -201,6 +211,7 @@ def fine() -> Iterator[Case]:
     yield from changed(5e3)
     yield from more()
     yield from joint()
+    yield from today()
     for ra, rows in product((1500.0, 2500.0, 20000.0), (25, 35)):
         yield from spam(ra, rows)
     for ra in (2500.0, 10000.0):

@@ -15,9 +15,10 @@ from studies.rb.tables import POINT, SCENE, STILL
 
 Row = dict[Any, Any]
 GRIDS = ("compressible", "boussinesq", "pypde-compressible")
+CORRECTED = ("sumB", "corrected")       # smooth particles that may have a limit
 SERIES = [name for name in POINT if name != "resolution"]
 ENERGIES = ["ke", "ke_field", "ke_mean", "nu"]
-HALF = "printed-half-step"
+HALF = "-half-step"
 #: the finest over the coarsest size from which a limit of points takes 1/rows^3 besides: 80 and 25 rows. Both
 #: were set after a look: at 12 to 40 rows of moving points, then at lattices at rest, whose K has that power
 COARSEST = 3.2
@@ -55,7 +56,8 @@ def extrapolated(runs: pd.DataFrame) -> Iterator[Row]:
     Grids and lattices have no chance in them; of sets of points that differ each run counts by itself.
     """
     settled = runs[runs.converged.astype(str) == "True"]
-    series = settled[settled.method.isin([*GRIDS, "dih"])].sort_values("resolution")
+    series = settled[settled.method.isin([*GRIDS, "dih"]) | settled.variant.isin(CORRECTED)]
+    series = series.sort_values("resolution")
     for point, group in series.groupby(SERIES, dropna=False):
         if group.resolution.nunique() < 3 or group.rolls.nunique() > 1:
             continue
@@ -97,8 +99,8 @@ def over_seeds(runs: pd.DataFrame) -> Iterator[Row]:
     """Means over the seeds of each point that settled in its commonest number of rolls; grid rows pass as
     they are.
 
-    To the error of particles belongs twice what half of the time step changes: its error is of first order,
-    from the walls.
+    To the error of smooth particles belongs twice what half of the time step changes, of their own variant
+    where it was run, else of the printed one: its error is of first order, from the walls.
     """
     changes = step_changes(runs)
     for point, group in runs.groupby(POINT, dropna=False):
@@ -115,11 +117,14 @@ def over_seeds(runs: pd.DataFrame) -> Iterator[Row]:
 
 
 def step_changes(runs: pd.DataFrame) -> pd.DataFrame:
-    """How much of each energy half of the time step changes, relative, by scene and resolution; the finest
-    first.
+    """How much of each energy half of the time step changes, relative, by variant, scene and resolution; the
+    finest first.
     """
-    half, whole = (runs[runs.variant == name].groupby([*SCENE, "resolution"], dropna=False)[ENERGIES].mean()
-                   for name in (HALF, "printed"))
+    spam = runs[runs.method == "spam"]
+    halves = spam[spam.variant.str.endswith(HALF)]
+    halves = halves.assign(variant=halves.variant.str.removesuffix(HALF))
+    half, whole = (some.groupby(["variant", *SCENE, "resolution"], dropna=False)[ENERGIES].mean()
+                   for some in (halves, spam))
     changes = (half/whole - 1).abs().dropna().reset_index()
     return changes.sort_values("resolution", ascending=False, kind="stable")
 
@@ -129,7 +134,8 @@ def step_change(changes: pd.DataFrame, row: Row) -> pd.Series:
 
     Of several Ra of this fluid that of the same one, if it is there.
     """
-    coarser = changes[changes.resolution <= row["resolution"]]
+    known = row["variant"] if (changes.variant == row["variant"]).any() else "printed"
+    coarser = changes[(changes.resolution <= row["resolution"]) & (changes.variant == known)]
     alike = coarser[(coarser.eos == row["eos"]) & (coarser.sides == row["sides"])]
     own = alike[(alike.resolution == alike.resolution.max()) & (alike.ra == row["ra"])]
     chosen = next((some for some in (own, alike) if not some.empty), coarser)

@@ -19,8 +19,11 @@ ROWS = "rows over the height $L$"
 SIGNS = "filled marks: too large, open: too small; bars: 95 % intervals"
 PALE = "pale lines: no power law, but a range"
 PANEL: Style = {"width": 5.2, "sharex": "row", "sharey": "row", "squeeze": False}
-#: of particles, by energy
-WORDS = {"Kp": f"spam: {ENERGIES['kp'][1]}", "Kg": f"spam: {ENERGIES['kg'][1]}", "Nu": "spam: Nusselt number"}
+#: of smooth particles
+WORDS = {"spam printed Kp": f"spam: {ENERGIES['kp'][1]}", "spam printed Kg": f"spam: {ENERGIES['kg'][1]}",
+         "spam printed Nu": "spam: Nusselt number", "spam sph Kp": "spam-sph: kinetic energy",
+         "spam sumB Kp": "spam-sumB: kinetic energy",
+         "spam corrected Kp": "spam-corrected: kinetic energy"}
 #: "method variant energy" -> look
 METHODS: dict[str, Style] = {
     "compressible flux-form Kp": KIND["grid"],
@@ -33,8 +36,10 @@ METHODS: dict[str, Style] = {
     "spam printed Kp": KIND["kp"],
     "spam printed Kg": KIND["kg"],
     "spam printed Nu": KIND["nu"],
+    "spam sph Kp": {**look(5), "marker": "X"},
+    "spam sumB Kp": {**look(6), "marker": "<"},
+    "spam corrected Kp": {**look(7), "marker": "*", "markersize": 8},
 }
-OF_SPAM = {f"spam printed {energy}" for energy in WORDS}
 EDGES = {
     "on a lattice, weight of Lucy": (
         "fixed-lattice", "fixed-lattice-h3", "fixed-lattice-nested", "fixed-lattice-nested-only",
@@ -53,7 +58,7 @@ def convergence(tables: Tables) -> Figure | None:
     """
     chosen = of_series(looks.errors(tables, **LAYER), METHODS)
     ras = [ra for ra in RA_SHOWN if (chosen["ra"] == ra).any()]
-    kinds = [{key: METHODS[key] for key in METHODS if (key in OF_SPAM) == smooth} for smooth in (False, True)]
+    kinds = [{key: METHODS[key] for key in METHODS if (key in WORDS) == smooth} for smooth in (False, True)]
     kinds = [keys for keys in kinds if len(of_series(chosen, keys))]
     if not ras:
         return None
@@ -61,13 +66,13 @@ def convergence(tables: Tables) -> Figure | None:
     for line, keys in zip(lines, kinds):
         rows = of_series(chosen, keys)
         for axes, ra in zip(line, ras):
-            if keys.keys() == OF_SPAM:
+            if keys.keys() == WORDS.keys():
                 smoothing(axes, looks.seen(tables, **LAYER, ra=ra))
             over_rows(axes, rows[rows["ra"] == ra], keys)
             finish(axes, f"Ra = {ra:g}", rows)
             below(axes, title=PALE, title_fontsize=8)
         line[0].set_ylabel("relative error")
-    page.suptitle("Grids and points converge, smooth particles do not, but for their heat transport\n"
+    page.suptitle("Grids and points converge, smooth particles only with corrected sums\n"
                   r"$|K_p/K - 1|$, $|K_g/K_\mathrm{smoothed} - 1|$, $|\mathrm{Nu}_p/\mathrm{Nu} - 1|$"
                   f"\n{SIGNS}")
     return page
@@ -123,8 +128,8 @@ def over_rows(axes: Axes, chosen: pd.DataFrame, keys: dict[str, Style],
               gone: pd.DataFrame | None = None) -> None:
     """Errors of each series with its power law; at which rows runs diverged is said in the legend."""
     for key, style in keys.items():
-        series, (method, variant, energy) = of_series(chosen, [key]), key.split()
-        words = WORDS[energy] if method == "spam" else name_of(method, variant)
+        series, (method, variant, _) = of_series(chosen, [key]), key.split()
+        words = WORDS[key] if key in WORDS else name_of(method, variant)
         if gone is not None and (lost := gone.loc[gone["variant"] == variant, "resolution"]).any():
             words += f" [{', '.join(f'{size:.0f}' for size in lost)} rows: diverged]"
         if len(series):
