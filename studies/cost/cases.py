@@ -126,6 +126,7 @@ CONTESTS = {
         Team(TRIANGLES, rolls.on_triangles_long, 4e-4, NEAR, NINE),
         Team(variants("moving"), rolls.on_moving, 1e-3, (10, *rungs(12, 32), 44), first=1.0),
         Team(variants("spam"), rolls.of_particles, 3.4e-4, (16, 20, 25, 30), first=2*OF_LIMIT),
+        Team(variants("spam-corrected"), rolls.of_particles, 3.4e-4, (20, 25, 30, 36, 44), first=2*OF_LIMIT),
         Team(variants("spam-monaghan", "spam-wendland-c2", "spam-less-static-50"), rolls.of_particles, 3.4e-4,
              (12, 16, 20, 25), first=2*OF_LIMIT))),
     "convection-5000": Contest(HeatedLayer(ra=LOWER_RA), (

@@ -18,7 +18,7 @@ MOVING = "moving"
 CARRIED = "moving-delaunay"
 METHODS = (GRID, MAC, PYPDE, NEAREST, LATTICE, WIDE, JITTERED, "fixed-jittered-delaunay",
            "fixed-jittered-0.2-plates", LUCY, "spam-monaghan", "spam-wendland-c2", "spam-less-static-50",
-           CARRIED, MOVING)
+           "spam-corrected", CARRIED, MOVING)
 
 RUN = "scene method resolution seed"
 SERIES = "scene quantity method"
