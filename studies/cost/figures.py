@@ -27,6 +27,7 @@ FAMILIES = {
     "py-pde": ("#E69F00", "*"),
     "fixed-lattice": ("#0072B2", "o"),
     "fixed-jittered": ("#56B4E9", "^"),
+    "spam-corrected": ("#CC79A7", "v"),
     "spam": ("#D55E00", "s"),
     "moving": ("#009E73", "D"),
 }
@@ -44,7 +45,7 @@ def work_precision(points: pd.DataFrame, needed: pd.DataFrame) -> Figure:
     for axes in all_axes[:, 0]:
         axes.set_ylabel("relative error")
     legend(page, all_axes)
-    page.suptitle("An error of 1 % is cheapest on grids, then on points; smooth particles never come to it\n"
+    page.suptitle("An error of 1 % is cheapest on grids, then on points; smooth particles come to it with corrected sums only\n"
                   "the best of each family, at its own best step, one thread; bars: 95 %")
     return page
 
