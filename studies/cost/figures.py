@@ -45,7 +45,7 @@ def work_precision(points: pd.DataFrame, needed: pd.DataFrame) -> Figure:
     for axes in all_axes[:, 0]:
         axes.set_ylabel("relative error")
     legend(page, all_axes)
-    page.suptitle("An error of 1 % is cheapest on grids, then on points; smooth particles come to it with corrected sums only\n"
+    page.suptitle("1 % is cheapest on grids, then on points; smooth particles reach it with corrected sums\n"
                   "the best of each family, at its own best step, one thread; bars: 95 %")
     return page
 
