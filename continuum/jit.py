@@ -30,7 +30,8 @@ from numba.extending import overload, register_jitable  # noqa: E402
 
 import continuum.linking  # noqa: E402, F401  (before anything is compiled)
 
-numba.config.CACHE_DIR = os.environ["NUMBA_CACHE_DIR"]      # another module may have imported it before
+# another module may have imported it before
+numba.config.CACHE_DIR = os.environ["NUMBA_CACHE_DIR"]  # type: ignore[attr-defined]
 
 _load_index = caching.IndexDataCacheFile._load_index
 

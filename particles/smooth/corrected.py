@@ -53,6 +53,9 @@ class All(NamedTuple):
     """As `SumB`; friction and heat over the mean of tr M_i/2 and tr M_j/2, to first order in M - 1."""
 
 
+PRESSURE_ONLY: tuple[type, ...] = (SumB, Reverse, Symmetric)
+
+
 @generic
 def gain(term, a, b):
     """Friction and heat along a pair over those of `Direct`."""
@@ -63,11 +66,11 @@ def areas(term, own, other):
     """(A, C) from B_a grad w and B_b grad w, (x, y) each."""
 
 
-for kind in (SumB, Reverse, Symmetric):
+for kind in PRESSURE_ONLY:
     gain.of(kind)(lambda term, a, b: 1.0)
 gain.of(All)(lambda term, a, b: 0.25*(a.Bxx + a.Byy + b.Bxx + b.Byy))
-for kind in (SumB, All):
-    areas.of(kind)(lambda term, own, other: (own, other))
+areas.of(SumB)(lambda term, own, other: (own, other))
+areas.of(All)(lambda term, own, other: (own, other))
 areas.of(Reverse)(lambda term, own, other: (other, own))
 
 
@@ -104,7 +107,7 @@ def turned(a, x, y):
     return a.Bxx*x + a.Bxy*y, a.Bxy*x + a.Byy*y
 
 
-for kind in (SumB, Reverse, Symmetric, All):
+for kind in (*PRESSURE_ONLY, All):
     pair_term(kind, 3)(push)
 
 

@@ -81,7 +81,7 @@ def scene(ra: float, eos="ideal", transport="const-eta", sides="periodic") -> Po
     return {"eos": eos, "transport": transport, "sides": sides, "ra": float(ra), "pr": PRANDTL[eos]}
 
 
-def particles(ra: float, height: int = 50, variant="printed", **where) -> Point:
+def particles(ra: float, height: float = 50, variant="printed", **where) -> Point:
     """Of smooth particles, `height` rows of them: KHP95's 5000 are 50 rows of 100."""
     return {"method": "spam", "variant": variant, "resolution": float(height)} | scene(ra, **where)
 
