@@ -8,11 +8,12 @@ import pytest
 from crowd import goes_on_bitwise, random_fields
 
 import particles
-from continuum.fluid import ConstEta, VanDerWaals
+from continuum.fluid import ConstEta, IdealGas, VanDerWaals
 from continuum.gas.fields import at_nodes, initial, kinetic_energy, placed
 from continuum.gas.fields import block as as_block
 from continuum.scene import RayleighBenard, Torus, Walls
 from particles.dissipative.dpd import Dpd
+from particles.dissipative.edpd import Edpd
 from particles.fields import kinetic_energy as of_fields
 from particles.integral.bodies import held
 from particles.integral.closed_faces import Moving
@@ -20,6 +21,7 @@ from particles.integral.dih import Dih
 from particles.integral.drifts import DRIFTS
 from particles.integral.edge_makers import renormalised
 from particles.integral.edges import between_plates
+from particles.integral.entropy_stable import StableLayer
 from particles.integral.layer import Driven, Layer
 from particles.integral.moving_delaunay import MovingDelaunay
 from particles.integral.points import jittered, lattice
@@ -46,6 +48,7 @@ INSIDE = dict(zip(("edges", "beyond"), between_plates(renormalised, SQUARE.x, CO
 
 #: methods on points that stay, and on points that move: state(rho, v, T), state(x, rho, v, T)
 FIXED = {"dih": Dih(edges=EDGES, **FLUID), "layer": Layer(**INSIDE),
+         "stable": StableLayer(**{**INSIDE, "eos": IdealGas()}),
          "thermal": Thermal(edges=EDGES, k=1e-3, seed=1, **FLUID),
          "stream": Stream(x=SQUARE.x, edges=EDGES, held=held(np.array([0])), **FLUID),
          "sheared": Sheared(counts=BOX, weight=Lucy.of(h=2.0), rate=0.1, **FLUID), "driven": Driven(**INSIDE),
@@ -55,7 +58,7 @@ MOVING = {**{f"rr98-{name}": Drift(motion=motion, **EVERYWHERE) for name, motion
           **{f"plain-{name}": kind(box=BOX, weight=WendlandC2.of(h=2.9), **FLUID) for name,
              kind in MOTIONS.items()},
           "closed-faces": Moving(**EVERYWHERE)}
-DPD = {"dpd": Dpd(box=(5.0, 4.0)), "dpd-3d": Dpd(box=(3.5, 3.0, 4.0))}
+DPD = {"dpd": Dpd(box=(5.0, 4.0)), "edpd": Edpd(box=(5.0, 4.0)), "dpd-3d": Dpd(box=(3.5, 3.0, 4.0))}
 SPAM = Spam(**EVERYWHERE)
 
 

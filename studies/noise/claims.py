@@ -91,12 +91,12 @@ THERMAL = (
           value=one("shared", "drift", err="0", a=0),
           statement="what friction takes goes into internal energies: largest change of the total, relative, "
                     "10 000 steps, without repulsion"),
-    *(Claim(id=f"avalos-edpd-temperature{name}", source="Avalos & Mackie 1997", expect=1, within=0.01,
+    *(Claim(id=f"own-edpd-temperature{name}", source="Avalos & Mackie 1997", expect=1, within=0.01,
             because=PERCENT, value=one("shared", "ratio", a=a),
             statement="velocities and internal energies come to one temperature: kT over 1/<1/T_i>, "
                       f"{words}, dt = 0.02", after="a shorter run had been seen")
       for name, a, words in (("", 0, "without repulsion"), ("-repulsion", 25, "a = 25"))),
-    Claim(id="avalos-edpd-variance", source="Avalos & Mackie 1997", expect=1, within=0.05,
+    Claim(id="own-edpd-variance", source="Avalos & Mackie 1997", expect=1, within=0.05,
           value=farthest("shared", "variance"), after="a shorter run had been seen",
           because="5 %: steps of 0.02 add half of the 4 % that conduction relaxes in one",
           statement="internal energies are spread as e^C exp(-e/T), C = 50: their variance over that, a = 0 "

@@ -103,7 +103,7 @@ def joint(variant: str = "wendland-c2-joint") -> Point:
 def grown() -> Iterator[Claim]:
     """The joint limit of many neighbours and short ranges, between plates."""
     claim = partial(Claim, source="Zhu, Hernquist & Li 2015")
-    yield claim(id="zhu-joint-convection", at_most=0.02, evidence="rb/convergence.png",
+    yield claim(id="own-joint-convection", at_most=0.02, evidence="rb/convergence.png",
                 because="2 %, as vortices without walls come to with 200 rows",
                 value=last("errors", "abs(error)", by="resolution", err="error_err", **joint()),
                 statement="smooth particles converge if the range grows as rows^(1/2): |error of Kg| with "
