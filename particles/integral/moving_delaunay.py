@@ -55,7 +55,8 @@ class Carry(Leaps):
 class RingSums(Sums):
     """The compiled sums on a triangulation that moves, with what the time loop asks for.
 
-    received (m, 3) : momentum and energy of held points, per time, at the state last looked at.
+    received (m, 3) : momentum and energy of held points, per time, at the state last looked at. ids (n,) :
+    the numbers of points as they come in memory, until they are sorted again.
     """
     method: "MovingDelaunay"
 
@@ -110,7 +111,7 @@ class RingSums(Sums):
 
     def reorder(self, order: np.ndarray) -> None:
         """Number held points and sides as points `order` come."""
-        place = np.argsort(order)
+        self.ids, place = order, np.argsort(order)
         self.held = self.method.held._replace(which=place[self.method.held.which])
         self.rings = self.rings._replace(rim=self.method.rings.rim[order])
         self.bench.free[:] = True
