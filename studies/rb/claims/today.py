@@ -36,7 +36,7 @@ CLAIMS = (
           statement="one ingredient, pressures over each particle's corrected gradient, mends this: "
                     "|K/K_grid - 1|, 5000 particles, Ra 10 000"),
     Claim(id="own-today-sumb-limit", source="Bonet & Lok 1999", value=abs(error("sumB")), at_most=0.005,
-          after=FIXED, because="0.5 %: 1.5 % of the viscosity, which is missing, are worth 1.1 % of K",
+          after=FIXED, because="0.5 %: points that scatter are good to that",
           statement="with pressures alone corrected smooth particles converge on the gas: |K/K_grid - 1|, "
                     "extrapolated over 1/rows^2, Ra 10 000"),
     Claim(id="own-today-corrected-limit", source=SCHWAIGER, value=abs(error("corrected")), at_most=0.005,
