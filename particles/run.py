@@ -1,5 +1,7 @@
 """The only time loop: list upkeep, step, walls, divergence check, records, checkpoint, progress."""
 from collections.abc import Callable
+from signal import SIGINT, default_int_handler, getsignal, signal
+from threading import current_thread, main_thread
 from time import monotonic, process_time
 from typing import Any
 
@@ -28,6 +30,25 @@ class Divergence(FloatingPointError):
         self.step = step
 
 
+class Interrupt:
+    """Ctrl-C, which waits for the end of a step so that what is kept is whole; pressed again, it does not."""
+    times = 0
+
+    def __enter__(self) -> "Interrupt":
+        if current_thread() is main_thread() and getsignal(SIGINT) is default_int_handler:
+            signal(SIGINT, self.note)
+        return self
+
+    def note(self, number: int, frame: Any) -> None:
+        self.times += 1
+        if self.times > 1:
+            raise KeyboardInterrupt
+
+    def __exit__(self, *error: object) -> None:
+        if getsignal(SIGINT) == self.note:
+            signal(SIGINT, default_int_handler)
+
+
 def run(method: Any, start: ArrayLike, plan: Plan, progress: Callable[[float], None] | None = None) -> Run:
     """Advance `start`, array-like (fields, n), by the plan; `progress` gets the fraction done.
 
@@ -45,23 +66,30 @@ def run(method: Any, start: ArrayLike, plan: Plan, progress: Callable[[float], N
     sums.try_out(now)       # loads or compiles the code
     began, saved = process_time(), monotonic()
     now.compile_s += began - before
-    try:
-        while now.step < plan.steps:
-            _advance(method, plan, sums, integrator, now)
-            if progress is not None and (now.step % 16 == 0 or isinstance(integrator, Leaps)):
-                progress(now.step/plan.steps)
-            if plan.checkpoint is not None and monotonic() - saved > plan.checkpoint_seconds:
-                now.cpu_s, began = now.cpu_s + process_time() - began, process_time()
-                sums.mark(now)
-                save(plan.checkpoint, method, plan, start, now)
-                saved = monotonic()
-    except KeyboardInterrupt:
-        if plan.checkpoint is not None:
-            sums.mark(now)
-            save(plan.checkpoint, method, plan, start, now)
-        raise
+    with Interrupt() as interrupt:
+        try:
+            while now.step < plan.steps:
+                _advance(method, plan, sums, integrator, now)
+                if progress is not None and (now.step % 16 == 0 or isinstance(integrator, Leaps)):
+                    progress(now.step/plan.steps)
+                if interrupt.times:
+                    raise KeyboardInterrupt
+                if plan.checkpoint is not None and monotonic() - saved > plan.checkpoint_seconds:
+                    now.cpu_s, began = now.cpu_s + process_time() - began, process_time()
+                    _keep(method, plan, start, sums, now)
+                    saved = monotonic()
+        except KeyboardInterrupt:
+            if interrupt.times < 2:
+                _keep(method, plan, start, sums, now)
+            raise
     now.cpu_s += process_time() - began
     return now
+
+
+def _keep(method, plan: Plan, start: np.ndarray, sums, now: Run) -> None:
+    if plan.checkpoint is not None:
+        sums.mark(now)
+        save(plan.checkpoint, method, plan, start, now)
 
 
 def _advance(method, plan: Plan, sums, integrator, now: Run) -> None:

@@ -1,7 +1,9 @@
 """The time loop: what is interrupted goes on bitwise, what diverges says where; refusals."""
 import errno
+import signal
 from dataclasses import replace
 from functools import partial
+from typing import ClassVar
 
 import h5py
 import numpy as np
@@ -9,6 +11,7 @@ import pytest
 
 from continuum.scene import Walls
 from particles import checkpoint
+from particles.integrators import RK4
 from particles.observe import Grid, field_kinetic, heat_flow, particle_kinetic, wall_layers
 from particles.run import RANDOM, STUDIES, Divergence, Plan, Run, _check, run
 from particles.threads import Threads
@@ -43,6 +46,29 @@ def test_interrupted_run_goes_on_bitwise(tmp_path, uninterrupted):
     assert np.array_equal(done.ids, uninterrupted.ids)
     assert done.series == uninterrupted.series
     assert all(np.array_equal(done.means[name], uninterrupted.means[name]) for name in done.means)
+
+
+class Pressed(RK4):
+    """Ctrl-C in the middle of a step: its state has gone on, its number has not."""
+    times: ClassVar[list[int]] = []
+
+    def step(self, sums, state, dt):
+        super().step(sums, state, dt)
+        for _ in range(Pressed.times.pop() if Pressed.times else 0):
+            signal.raise_signal(signal.SIGINT)
+
+
+@pytest.mark.parametrize("times", [1, 2])
+def test_ctrl_c_keeps_whole_steps(times, tmp_path, monkeypatch, uninterrupted):
+    """Once, it waits for the end of the step; twice, it does not, and nothing is kept of a part of a step."""
+    method, start = small()
+    method, plan = replace(method, integrator=Pressed), replace(PLAN, checkpoint=tmp_path/"run.h5")
+    monkeypatch.setattr(Pressed, "times", [times])
+    with pytest.raises(KeyboardInterrupt):
+        run(method, start, plan)
+    assert plan.checkpoint.exists() == (times == 1)
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    assert np.array_equal(run(method, start, plan).state, uninterrupted.state)
 
 
 def test_checkpoints_on_the_way_change_nothing(tmp_path, uninterrupted):
