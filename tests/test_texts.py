@@ -239,7 +239,8 @@ def costs() -> Iterator[str]:
     yield f"it takes {of('own-speed-fixed-points-5000')} of the grid's time"
     yield f"In velocity it takes {of('own-speed-fixed-points-5000-velocity')} times as long"
     yield (f"grows as N^{of('khp95-speed-growth-spam')} (smooth particles), "
-           f"N^{of('own-speed-growth-carried')} (`moving-delaunay`) and N^{of('own-speed-growth-fixed')} (lattice)")
+           f"N^{of('own-speed-growth-carried')} (`moving-delaunay`) and "
+           f"N^{of('own-speed-growth-fixed')} (lattice)")
     yield f"costs {of('own-streams-vortex-still')} times the grid's seconds at rest"
     yield f"from {of('own-streams-vortex-crossing')} times the flow's speed on"
     yield f"and {of('own-streams-vortex-fast')} of those of the cheapest"
