@@ -49,14 +49,20 @@ def put(rings, i, e, j):
     rings.edges.taken[i] += u32(1)
 
 
+@formula
+def is_full(rings, i):
+    return rings.edges.taken[i] == rings.room[i]
+
+
 @jit
-def has_room(rings, i):
-    """Is there room for one more in the ring of i? A full one goes on behind all others, in twice its."""
+def lengthen(rings, i):
+    """Let the full ring of i go on behind all others, in twice its room; False: there is none."""
     edges, begin, room, end = rings.edges, rings.edges.first[i], u64(rings.room[i]), u64(rings.end[0])
-    if edges.taken[i] == room and end + u64(2)*room <= len(edges.near):
-        edges.near[end:end + room] = edges.near[begin:begin + room]
-        edges.first[i], rings.room[i], rings.end[0] = end, u64(2)*room, end + u64(2)*room
-    return edges.taken[i] < rings.room[i]
+    if end + u64(2)*room > len(edges.near):
+        return False
+    edges.near[end:end + room] = edges.near[begin:begin + room]
+    edges.first[i], rings.room[i], rings.end[0] = end, u64(2)*room, end + u64(2)*room
+    return True
 
 
 @formula
@@ -88,6 +94,7 @@ def flips(at, state, eos, rings, crossed, changed, stack):
     x, y = at
     size, per, near, count = rings.size, rings.per, rings.edges.near, 0
     x0, y0, exchanged = state[0], state[1], state[4:9]
+    old, new = np.empty((5, 4)), np.empty((5, 4))
     for row in range(len(crossed)):
         if not crossed[row]:
             continue
@@ -107,9 +114,9 @@ def flips(at, state, eos, rings, crossed, changed, stack):
             if not (doubled(x, y, size, per, i, l, k) > 0 and doubled(x, y, size, per, j, k, l) > 0):
                 continue        # not convex: another flip comes first
             for full in (k, l):
-                if not has_room(rings, full):
+                if is_full(rings, full) and not lengthen(rings, full):
                     return count, full
-            remap(x0, y0, size, per, eos, exchanged, i, j, k, l)
+            remap(x0, y0, size, per, eos, exchanged, i, j, k, l, old, new)
             drop(rings, i, entry)
             drop(rings, j, back)
             put(rings, k, slot(rings, k, i), l)
@@ -132,12 +139,14 @@ def on_side(rings, i, e):
 
 
 @jit
-def remap(x, y, size, per, eos, exchanged, i, j, k, l):
-    """What a flip moves between four points, places of the volumes: dV is a third of the areas' changes."""
+def remap(x, y, size, per, eos, exchanged, i, j, k, l, old, new):
+    """What a flip moves between four points, places of the volumes: dV is a third of the areas' changes.
+
+    old, new (5, 4) : room for what they have.
+    """
     left, right = doubled(x, y, size, per, i, j, k)/2, doubled(x, y, size, per, i, l, j)/2
     at_i, at_j, both = doubled(x, y, size, per, i, l, k)/2, doubled(x, y, size, per, j, k, l)/2, left + right
     four, dV = (i, j, k, l), ((at_i - both)/3, (at_j - both)/3, (both - left)/3, (both - right)/3)
-    old, new = np.empty((5, 4)), np.empty((5, 4))
     for c in range(4):
         for row in range(5):
             old[row, c] = exchanged[row, four[c]]
@@ -153,13 +162,14 @@ def remap(x, y, size, per, eos, exchanged, i, j, k, l):
 @formula
 def along_slopes(old, dV, new):
     """Volume with what its point has; what is too much then goes from all: exact on linear fields."""
+    all_volume = old[VOLUME].sum()
     for row in CARRIED:
         excess = 0.0
         for c in range(4):
             excess += dV[c]*old[row, c]/old[VOLUME, c]
         for c in range(4):
             new[row, c] = (old[row, c] + dV[c]*old[row, c]/old[VOLUME, c]
-                           - excess*new[VOLUME, c]/old[VOLUME].sum())
+                           - excess*new[VOLUME, c]/all_volume)
 
 
 @formula

@@ -82,10 +82,9 @@ def mend(eos, y, rings, bench):
         bench.flipped[0] += count
         if full >= 0:
             return full, -1
-        for i in range(len(bench.changed)):
-            if bench.changed[i]:
-                bench.changed[i] = False
-                geometry(i, i + 1, bench.middle, rings, bench.V, bench.pull, bench.spread, bench.crossed)
+        geometry(0, len(bench.V), bench.middle, rings, bench.V, bench.pull, bench.spread, bench.crossed,
+                 bench.changed)
+        bench.changed[:] = False
     for i in range(len(bench.V)):
         if not bench.V[i] > 0:
             return -1, i

@@ -133,13 +133,16 @@ def apart(x, y, size, per, i, j):
 
 
 @jit
-def geometry(first, last, at, rings, V, pull, spread, crossed):
+def geometry(first, last, at, rings, V, pull, spread, crossed, only=None):
     """S/2 and k of rows first..last, V, spread: sum_j k_ij/V_i, pull: from points to their triangles' centre.
 
     crossed[i] : an edge to a point j > i is to be flipped. A triangle that has turned over gives V = nan.
+    only (n,) : of which rows, of all where there is none.
     """
     (x, y), size, per, near = at, rings.size, rings.per, rings.edges.near
     for i in range(u64(first), u64(last)):
+        if only is not None and not only[i]:
+            continue
         begin, count, rim = rings.edges.first[i], u64(rings.edges.taken[i]), rings.rim[i]
         end = begin + count - u64(1)
         lx, ly = apart(x, y, size, per, i, near[end])
