@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from studies.kit.case import Case, Outcome, word
+from studies.kit.dispatch import Bar
 from studies.kit.store import kept
 from studies.kit.study import Study
 from studies.kit.sweep import CasesFailed
@@ -165,3 +166,18 @@ def test_the_key_of_a_case_is_that_of_its_parameters():
     assert Square(x=0.1).key == base.key
     with pytest.raises(TypeError, match="a case cannot hold"):
         _ = replace(base, lens=lambda: 0).key
+
+
+def test_the_time_left_is_reckoned_from_what_is_done_since_the_start():
+    """Four cases of equal cost, which tell no fractions; the first takes 1024 s."""
+    bar = Bar([Square(x=0.0)]*4, "toy")
+    bar.line.start_t = bar.line.last_print_t = 0.0
+
+    def left_at(seconds: float) -> str:
+        bar.line._time = lambda: seconds
+        bar.show()
+        return str(bar.line).partition("left ")[2].split()[0]
+    bar.tell(0, 0.0)
+    assert left_at(70) == left_at(1000) == "?", "a case that has begun tells nothing"
+    bar.fractions[0] = 1.0
+    assert left_at(1024) == "51:12", "three times as long"

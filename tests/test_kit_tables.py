@@ -10,6 +10,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from studies.kit import claim as claims
 from studies.kit import csvfile
 from studies.kit.claim import CannotTell, Claim, judge, put_claims, verdict
 from studies.kit.table import Table, Tables, changed, merge, read
@@ -230,7 +231,7 @@ def test_studies_that_judge_at_once_keep_the_claims_of_each_other(tmp_path, monk
         return frame
     path, names = tmp_path/"claims.csv", ["cost", "noise", "rb"]
     put_claims(path, judge([claim(id="a", expect=1.0, within=0.5)], Tables(), "onset"))
-    monkeypatch.setattr(csvfile, "read", slow)
+    monkeypatch.setattr(claims, "read", slow)
     with ThreadPoolExecutor() as pool:
         list(pool.map(lambda name: put_claims(path, judge([claim(id=name, expect=1.0, within=0.5)], Tables(),
                                                           name)), names))
@@ -259,9 +260,3 @@ def test_a_mistake_of_a_claim_keeps_its_traceback_and_says_whose_it_is():
     with pytest.raises(ZeroDivisionError) as told:
         judge([claim(value=lambda tables: (1/0, 0.0), expect=1.0, within=0.5)], Tables(), "rb")
     assert told.value.__notes__ == ["while judging claim c"]
-
-
-def test_a_claim_whose_table_is_missing_says_so():
-    broken = claim(value=lambda tables: tables["energy"], expect=1.0, within=0.5)
-    with pytest.raises(WrongQuestion, match=r"study rb, claim c, .*no table 'energy' among none"):
-        judge([broken], Tables(), "rb")

@@ -20,7 +20,7 @@ from typing import NamedTuple
 
 import pandas as pd
 
-from studies.kit.csvfile import OtherTable, commit, put
+from studies.kit.csvfile import OtherTable, commit, locked, read, write
 from studies.kit.stats import CannotTell, Measured
 from studies.kit.table import Row, Tables
 from studies.kit.value import Value, WrongQuestion
@@ -258,5 +258,9 @@ def judged(claim: Claim, tables: Tables, study: str = "") -> Row:
 
 def put_claims(path: Path, rows: Sequence[Row]) -> None:
     """Replace the claims of one study in results/claims.csv; those of others stay."""
-    new = pd.DataFrame(rows, columns=list(COLUMNS))
-    put(path, new, by=["study"], order=["study", "id"], head=[f"commit {commit()}", *MEANING])
+    claims = pd.DataFrame(rows, columns=list(COLUMNS))
+    with locked(path.parent/"raw"):     # several studies write into one file
+        if path.exists():
+            others = read(path, COLUMNS).query("study != @rows[0]['study']")
+            claims = pd.concat([others, claims]) if len(others) else claims
+        write(path, claims.sort_values(["study", "id"]), head=[f"commit {commit()}", *MEANING])

@@ -85,17 +85,6 @@ def write(path: Path, frame: pd.DataFrame, *, head: Iterable[str]) -> None:
         write_atomic(path, gzip.compress(whole.encode(), mtime=0) if path.suffix == ".gz" else whole)
 
 
-def put(path: Path, new: pd.DataFrame, *, by: list[str], order: list[str], head: Iterable[str]) -> None:
-    """Rows, all the same in the columns ``by``, in place of those that are the same there in the file."""
-    rows = new
-    with locked(path.parent/"raw"):     # several studies write into one file
-        if path.exists():
-            old = read(path, new.columns)
-            replaced = (old[by] == new[by].iloc[0]).all(axis=1)
-            rows = new if replaced.all() else pd.concat([old[~replaced], new])
-        write(path, rows.sort_values(order), head=head)
-
-
 @contextmanager
 def locked(folder: Path, busy: str = "") -> Iterator[None]:
     """Nobody else has the lock of a folder meanwhile; it ends with the process, too.

@@ -110,8 +110,3 @@ def kept(case: Case, folder: Path) -> Rows | None:
         return None
     return {table: [{**row, "commit": content["commit"]} for row in rows]
             for table, rows in content["rows"].items()}
-
-
-def seconds(case: Case, folder: Path) -> float:
-    """CPU seconds that a finished case took."""
-    return content_of(case, folder)["cpu_s"]

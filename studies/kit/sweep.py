@@ -11,7 +11,6 @@ from studies.kit.cluster import Cluster, check_scheduler
 from studies.kit.dispatch import Bar, Here, Processes, Transport, dispatch
 from studies.kit.store import RESULTS, CannotRun, Failure, kept
 from studies.kit.table import Row, Rows, Table, Tables, changed, check_size, merge, read
-from studies.kit.timing import put_times
 
 LABELS = 3      # of those that exist, told to who asked for one that does not
 GO_ON = "the same command goes on from there"
@@ -63,8 +62,6 @@ class Sweep:
         if failures:
             count = f"{len(failures)} of {len(wanted)} cases failed, the tables hold the others:"
             return tables, CasesFailed("\n".join([count, *map(str, failures)]))
-        if not self.only:
-            put_times(self.out, self.study, self.size, wanted)
         return tables, None
 
     def run_missing(self, wanted: Sequence[Case]) -> list[Failure]:

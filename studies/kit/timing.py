@@ -1,19 +1,13 @@
-"""How long things take: CPU seconds, compiling apart; whole studies, measured as they run, in times.csv."""
+"""How long things take: CPU seconds, compiling apart."""
 import statistics
 import time
-from collections.abc import Callable, Sequence
-from pathlib import Path
+from collections.abc import Callable
 from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
-import pandas as pd
 from scipy.special import stdtrit
 
 from numba.core import event  # isort: skip
-
-from studies.kit.case import Case
-from studies.kit.csvfile import commit, cpu, put, versions
-from studies.kit.store import seconds
 
 REPEATS = 7
 #: half of the interquartile range of 7 repeats -> half width of the 95 % interval of their median:
@@ -72,19 +66,3 @@ def median_seconds(f: Callable[[], Any], repeats: int = 7,
         times.append(clock() - begin)
     low, median, high = statistics.quantiles(times, n=4, method="inclusive")
     return Seconds(median, (high - low)/2)
-
-
-# --- whole studies ---------------------------------------------------------------------------------
-
-#: estimate_s: the cases' own, which need not be right; cpu_s: of all threads, compiling with it
-COLUMNS = ["study", "size", "cases", "estimate_s", "cpu_s", "commit"]
-
-
-def put_times(out: Path, study: str, size: str, cases: Sequence[Case]) -> None:
-    """Replace the row of a study and size, all of whose cases are finished."""
-    if not cases:
-        return
-    spent = sum(seconds(case, out/"raw"/study) for case in cases)
-    estimate = sum(case.cost for case in cases)
-    new = pd.DataFrame([[study, size, len(cases), estimate, spent, commit()]], columns=COLUMNS)
-    put(out/"times.csv", new, by=["study", "size"], order=["study", "size"], head=[versions(), cpu()])

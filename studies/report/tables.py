@@ -30,9 +30,7 @@ OTHERS = {
     "bench": [speed("spam_speed", "Smooth particles beside LAMMPS"),
               speed("points_speed", "Points that stay and that move"),
               speed("dpd_speed", "Dissipative particles beside LAMMPS")],
-    "films": [FILMS],
-    ".": [Table.of("times", "study size", "cases estimate_s cpu_s commit", about="A whole study in one size.",
-                   means={"size": ("SIZE of the study", ""), "cpu_s": ("CPU seconds of all cases", "s")})]}
+    "films": [FILMS]}
 HEAD = Path(__file__).parent/"sentences"/"tables.md"
 
 
@@ -47,7 +45,7 @@ def text() -> str:
     """The whole file."""
     parts = [HEAD.read_text()]
     for folder, tables in folders():
-        parts.append(f"\n## {folder}\n" if folder != "." else "\n## All studies\n")
+        parts.append(f"\n## {folder}\n")
         parts += ["\n".join(lines(folder, table)) for table in tables]
     return "\n".join(parts) + "\n"
 
@@ -61,7 +59,7 @@ def folders() -> Iterator[tuple[str, Sequence[Table]]]:
 
 def lines(folder: str, table: Table) -> Iterator[str]:
     """A table: what a row is, then its columns."""
-    path = table.file if folder == "." else f"{folder}/{table.file}"
+    path = f"{folder}/{table.file}"
     yield f"### [{path}]({path})\n\n{table.about}\n\n| column | meaning | unit |\n|---|---|---|"
     for column in table.columns:
         if column.removesuffix("_err") in {*table.columns} - {column}:
