@@ -6,7 +6,6 @@ import pytest
 from PIL import Image
 from report_tables import claims, errors, one_study
 
-from studies.cost import tables as cost_tables
 from studies.kit.csvfile import write
 from studies.report import films as draw
 from studies.report.__main__ import main
@@ -35,7 +34,6 @@ def test_a_report_without_results_says_what_to_run(tmp_path, capsys):
 
 @pytest.mark.parametrize(("file", "content", "words"), [
     ("claims.csv", claims().drop(columns="verdict"), "claims.csv has no column verdict"),
-    ("claims.csv", claims().assign(study="onset"), "claims.csv has claims of onset without tables"),
     ("claims.csv", None, "claims.csv does not exist"),
     ("rb/errors.csv", errors().drop(columns="error_err"), "rb/errors.csv has no column error_err"),
     ("rb/errors.csv", 'a,b\n1,2\n3,4,5,6\n"', "rb/errors.csv is no table"),
@@ -49,19 +47,6 @@ def test_a_file_that_is_missing_or_wrong(small, capsys, file, content, words):
     else:
         write(small/file, content, head=["x"])
     assert words in refused(small, capsys)
-
-
-def test_no_table_of_a_study_may_lack_a_column_that_it_declares(small, capsys):
-    """Not even one that findings do not read: diagrams would be left out."""
-    write_page(small)
-    columns = [*cost_tables.POINTS.columns, "size", "commit"]
-    texts = {"scene": "sound", "quantity": "velocity", "method": "moving", "size": "fine", "commit": "abc"}
-    for column in ("error_err", "setup_s", "commit"):
-        row = {name: texts.get(name, 1.0) for name in columns if name != column}
-        write(small/"cost/points.csv", pd.DataFrame([row]), head=["x"])
-        said = refused(small, capsys)
-        assert f"cost/points.csv has no column {column}: it has an older layout" in said
-        assert "run the study again" in said
 
 
 def test_a_figure_that_is_broken(small, capsys):

@@ -54,7 +54,6 @@ def write_page(out: Path) -> Path:
 def render(out: Path, known: list[Folder]) -> str:
     """The page as text."""
     claims = claims_of(out)
-    check_studies(claims, known)
     environment = Environment(
         loader=FileSystemLoader(PARTS), autoescape=True, undefined=StrictUndefined,
         trim_blocks=True, lstrip_blocks=True)
@@ -80,14 +79,6 @@ def check_inside(out: Path) -> None:
         shown = path.relative_to(out).parts[0] not in ("raw", "quick", "own")
         if shown and not path.resolve().is_relative_to(out.resolve()):
             raise NoReport(f"{path} leads out of {out}: the page holds only what is in there; copy it")
-
-
-def check_studies(claims: pd.DataFrame, known: list[Folder]) -> None:
-    """Refuse claims without a place in the page, which stand below the tables of their study."""
-    lost = {*claims["study"]} - {folder.name for folder in known}
-    if lost:
-        names = ", ".join(sorted(lost))
-        raise NoReport(f"claims.csv has claims of {names} without tables: run make study-NAME for each")
 
 
 def in_order(claims: pd.DataFrame) -> pd.DataFrame:
