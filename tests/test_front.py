@@ -114,23 +114,15 @@ def test_files_hold_what_the_solution_has(convection, tmp_path):
 
 
 def test_an_interrupted_run_goes_on_bitwise(tmp_path, monkeypatch):
+    def stop(bar, steps):
+        if steps > bar.total/2:
+            raise KeyboardInterrupt
     whole = solve(RB, "grid", rows=12, time=5)
-    from studies.front import solving
-    ticks = []
-
-    def interrupted(method, start, plan, progress=None):
-        def tick(part):
-            ticks.append(part)
-            if part > 0.5:
-                raise KeyboardInterrupt
-        return run(method, start, plan, tick)
-    run = solving.run
-    monkeypatch.setattr(solving, "run", interrupted)
-    with pytest.raises(KeyboardInterrupt):
+    with monkeypatch.context() as half, pytest.raises(KeyboardInterrupt):
+        half.setattr("studies.front.solving.tqdm.update", stop)
         solve(RB, "grid", rows=12, time=5, resume=tmp_path/"run.h5")
-    monkeypatch.setattr(solving, "run", run)
     again = solve(RB, "grid", rows=12, time=5, resume=tmp_path/"run.h5")
-    assert again.K == whole.K and again.fields().equals(whole.fields()) and max(ticks) > 0.5
+    assert again.K == whole.K and again.fields().equals(whole.fields())
 
 
 def other_box():

@@ -198,27 +198,6 @@ def test_a_link_unfolds_what_it_leads_to_even_out_of_a_search(desk):
     WebDriverWait(desk, 5).until(lambda _: desk.find_element(By.ID, "word-moving").is_displayed())
 
 
-def test_a_figure_grows_and_shrinks_by_the_keyboard(desk):
-    link = desk.find_element(By.CSS_SELECTOR, "#figure-cost-work_precision .zoom")
-    before = link.size["width"]
-    desk.execute_script("arguments[0].focus()", link)
-    for grows in (True, False):
-        ActionChains(desk).send_keys(Keys.ENTER).perform()
-        assert (link.size["width"] > 2*before) is grows
-        assert link.get_attribute("aria-expanded") == str(grows).lower()
-
-
-def test_a_large_figure_scrolls_on_a_phone_with_text_of_the_size_of_the_page(sized):
-    chrome = sized(390, 844)
-    frame = chrome.find_element(By.CSS_SELECTOR, "#figure-ordering-flows_points .zoom")
-    chrome.execute_script("arguments[0].click()", frame)
-    wide, natural, inner, outer, page = chrome.execute_script(
-        "const box = arguments[0], image = box.querySelector('img'); return [image.clientWidth, "
-        "image.naturalWidth, box.scrollWidth, box.clientWidth, document.documentElement.scrollWidth]", frame)
-    assert wide == natural*96//150 == inner > outer and page <= 390
-    chrome.execute_script("arguments[0].click()", frame)
-
-
 def test_films_can_be_played(desk):
     assert desk.execute_async_script("""const done = arguments[0], film = document.querySelector('video');
         film.addEventListener('timeupdate', () => done(film.videoWidth === 640 && !film.error), {once: true});
