@@ -5,6 +5,7 @@ the rates are then a matrix of a few numbers a row of the grid, and sigma is its
 time turns it into another growth rate, but where sigma = 0, at onset, it stays 0.
 """
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import product
 from pathlib import Path
 from typing import Any
@@ -17,6 +18,9 @@ from continuum.gas.ghosts import FluxForm, box_of
 from continuum.gas.loop import rates
 from continuum.linear import DEGREE, PlateKind, critical, critical_ra, growth_rate
 from continuum.scene import RayleighBenard, Walls
+from continuum.spectral.branch import branch
+from continuum.spectral.laws import BoussinesqLaws
+from continuum.spectral.newton import onset
 from studies.build.names import scene_columns
 from studies.kit.case import Case, Outcome, Report
 
@@ -116,3 +120,28 @@ class GridGrowth(Case):
             sigma, err = compressible(scene, size)
             rows.append(at | {"way": "operator", "sigma": sigma, "err": err})
         return Outcome({"growth_rates": rows})
+
+
+@dataclass(frozen=True, kw_only=True)
+class Branch(Case):
+    """Steady rolls of the Boussinesq fluid, followed from rest along their arc, beside linear theory."""
+    pr: float
+    width: float
+    functions: int
+    steps: tuple[float, ...]
+
+    @property
+    def cost(self) -> float:
+        return 1e-8*self.functions**6*len(self.steps)
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        laws, known = partial(BoussinesqLaws, pr=self.pr, width=self.width), critical_ra(2*np.pi/self.width)
+        ra_c = onset(laws, self.functions, 0.9*known, 1.1*known)
+        at = {"pr": self.pr, "width": self.width, "resolution": self.functions}
+        rows = [{**at, "arc": 0.0, "above": 0.0, "ke": 0.0, "nu": 1.0, "off_linear": ra_c/known - 1}]
+        states = branch(self.pr, self.functions, self.steps, self.width)
+        for arc, state in zip(np.cumsum(self.steps), states):
+            rows.append({**at, "arc": float(arc), "above": state.equations.laws.ra/ra_c - 1, "ke": state.K,
+                         "nu": state.Nu})
+            report(len(rows)/len(self.steps))
+        return Outcome({"branch": rows})
