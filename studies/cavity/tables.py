@@ -1,8 +1,5 @@
-"""The table of the cavity, and limits of grids in it."""
-import numpy as np
-
-from studies.kit.fits import four_grids
-from studies.kit.table import Rows, Table, Tables, groups
+"""The table of the cavity."""
+from studies.kit.table import Table
 
 CAVITY = Table.of(
     "cavity", "method ra resolution quantity", "value err",
@@ -13,19 +10,3 @@ CAVITY = Table.of(
            "value": ("the number", ""),
            "err": ("of the spectral method what more functions change, the most of those before; of limits "
                    "half of the 95 % interval", "")})
-TABLES = (CAVITY,)
-
-
-def limits(tables: Tables) -> Rows:
-    """Of grids, at resolution inf."""
-    if "cavity" not in tables:
-        return {}
-    rows = []
-    table = tables["cavity"]
-    grids = table[np.isfinite(table.resolution) & (table.method == "boussinesq")]
-    for key, group in groups(grids, ["method", "ra", "quantity"]):
-        if len(group) > 2:
-            limit = four_grids(group.resolution, group.value)
-            rows.append(dict(zip(("method", "ra", "quantity"), key))
-                        | {"resolution": np.inf, "value": limit.value, "err": limit.err})
-    return {"cavity": rows}

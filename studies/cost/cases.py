@@ -21,8 +21,8 @@ from studies.build.spam import OF_LIMIT
 from studies.cost import contestants as of
 from studies.cost import rolls
 from studies.cost.contestants import ExactFlow
-from studies.cost.modes import in_modes
-from studies.cost.race import Entry, Race, SolverRace, SpectralRace, by_pypde
+from studies.cost.modes import SpectralRace, solved
+from studies.cost.race import Entry, Race, SolverRace, by_pypde
 from studies.cost.rolls import LOWER_RA, HeatedLayer
 from studies.cost.seconds import Flock, Resident, StepTime, TwoThreads, Web
 from studies.cost.tables import CARRIED, SPECTRAL
@@ -122,7 +122,7 @@ CONTESTS = {
     "couette": between("couette"),
     "convection": Contest(HeatedLayer(), (
         Team(variants("grid"), rolls.on_grid, 3.5e-5, (8, 12, 16, 20, 24, 32, 40, 48, 64, 88)),
-        Team({SPECTRAL: None}, in_modes, 0.0, MODES, kind=SpectralRace),
+        Team({SPECTRAL: None}, solved, 0.0, MODES, kind=SpectralRace),
         Team(LATTICES, rolls.on_points, 2.6e-4, rungs(12, 48)),
         Team(variants("fixed-jittered-plates"), rolls.on_points, 2.6e-4, (*rungs(12, 32), 40), TWO),
         Team(TRIANGLES, rolls.on_triangles, 1.7e-4, (8, 10, *rungs(24, 48)), THREE),

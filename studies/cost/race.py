@@ -179,26 +179,3 @@ class SolverRace(Race):
         row = {**self.columns, "points": len(v), "of_limit": 1.0, "dt": np.nan, "steps": end.steps, **seconds}
         errors = self.errors(result, self.entry.flow.known)
         return Outcome({"errors": list(errors), "runs": [row]})
-
-
-# --- Newton's method on waves and polynomials ---------------------------------------------------------------
-
-
-@dataclass(frozen=True, kw_only=True)
-class SpectralRace(Race):
-    """All of the way to a steady state, which has no steps in time; the resolution is that of `Modes`."""
-
-    @property
-    def cost(self) -> float:
-        n = max(self.resolution, 16)
-        return 15 + 1e-7*n**6       # the exact answer, once in a process
-
-    def run(self, report: Report, folder: Path) -> Outcome:
-        modes = self.made()
-        state = modes.solve()
-        errors = list(self.errors(modes.judge(state), 0.0))
-        report(0.5)
-        seconds = with_err(run_s=of_calls(modes.solve), setup_s=Measured(0.0))
-        row = {**self.columns, "points": self.resolution**2, "of_limit": 1.0, "dt": np.nan,
-               "steps": len(state.changes), **seconds}
-        return Outcome({"errors": errors, "runs": [row]})

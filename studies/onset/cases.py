@@ -68,6 +68,7 @@ def cases(size: str) -> list[Case]:
     rolls = [particles(16, seeds=(1,), every=2)] if quick else [particles(25)]
     if size == "fine":
         rolls += [particles(rows) for rows in (16, 35, 50)]
-    branches = [Branch(pr=1.0, width=2.0, functions=8, steps=ARCS[:3])] if quick else [
-        Branch(pr=pr, width=width, functions=16, steps=ARCS) for pr, width in product((0.71, 1.0), (1.0, 2.0))]
+    boxes = product((0.71, 1.0), (1.0, 2.0))      # Pr, width
+    branches = ([Branch(pr=1.0, width=2.0, functions=8, steps=ARCS[:3])] if quick else
+                [Branch(pr=pr, width=width, functions=16, steps=ARCS) for pr, width in boxes])
     return [THEORY, *growth(grids, differences), *energies, *others, *strong, *chain(*rolls), *branches]

@@ -107,10 +107,10 @@ ONSET_CLAIMS = (
           because="rolls that rise or sink at x = 0 are alike; the next term is as large as Ra/Ra_c - 1",
           statement="the branch of rolls leaves rest with the square root of Ra - Ra_c: exponent of their "
                     "velocity, Boussinesq fluid, Ra within 0.1 % of the onset"),
-    Claim(id="own-onset-branch-linear", source="KHP95 Sec. IV", at_most=2.9e-10,
+    Claim(id="own-onset-branch-linear", source="KHP95 Sec. IV", at_most=1e-10,
           value=largest("branch", "abs(off_linear)", "arc == 0", err="0"),
-          because="half of the tenth digit of a number that begins with 1.7",
+          because="half of the tenth digit of a number that begins with five",
           after="a test had found ten digits with 12 functions",
-          statement="the spectral method gives ten digits of the onset: distance from linear theory, pairs of "
-                    "rolls 2 and 1 wide, relative"),
+          statement="the spectral method gives ten digits of the onset: distance from linear theory, pairs "
+                    "of rolls 2 and 1 wide, relative"),
 )

@@ -5,7 +5,6 @@ the rates are then a matrix of a few numbers a row of the grid, and sigma is its
 time turns it into another growth rate, but where sigma = 0, at onset, it stays 0.
 """
 from dataclasses import dataclass, replace
-from functools import partial
 from itertools import product
 from pathlib import Path
 from typing import Any
@@ -19,8 +18,6 @@ from continuum.gas.loop import rates
 from continuum.linear import DEGREE, PlateKind, critical, critical_ra, growth_rate
 from continuum.scene import RayleighBenard, Walls
 from continuum.spectral.branch import branch
-from continuum.spectral.laws import BoussinesqLaws
-from continuum.spectral.newton import onset
 from studies.build.names import scene_columns
 from studies.kit.case import Case, Outcome, Report
 
@@ -135,13 +132,13 @@ class Branch(Case):
         return 1e-8*self.functions**6*len(self.steps)
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        laws, known = partial(BoussinesqLaws, pr=self.pr, width=self.width), critical_ra(2*np.pi/self.width)
-        ra_c = onset(laws, self.functions, 0.9*known, 1.1*known)
-        at = {"pr": self.pr, "width": self.width, "resolution": self.functions}
-        rows = [{**at, "arc": 0.0, "above": 0.0, "ke": 0.0, "nu": 1.0, "off_linear": ra_c/known - 1}]
-        states = branch(self.pr, self.functions, self.steps, self.width)
-        for arc, state in zip(np.cumsum(self.steps), states):
-            rows.append({**at, "arc": float(arc), "above": state.equations.laws.ra/ra_c - 1, "ke": state.K,
-                         "nu": state.Nu})
-            report(len(rows)/len(self.steps))
+        states, rows = branch(self.pr, self.functions, self.steps, self.width), list[dict[str, Any]]()
+        arcs, ra_c = np.cumsum([0.0, *self.steps]), critical_ra(2*np.pi/self.width)
+        for arc, state in zip(arcs, states):
+            ra = state.equations.laws.ra
+            first = rows[0]["ra"] if rows else ra
+            rows.append({"pr": self.pr, "width": self.width, "resolution": self.functions, "arc": float(arc),
+                         "ra": ra, "above": ra/first - 1, "ke": state.K, "nu": state.Nu,
+                         "off_linear": first/ra_c - 1})
+            report(len(rows)/len(arcs))
         return Outcome({"branch": rows})

@@ -37,13 +37,13 @@ CRITICAL = Table.of("critical_ra", "method quantity",
                                         "in brackets how it was found: a limit where no rows are named", ""),
                            "value": ("critical Rayleigh number", "")})
 
-BRANCH = Table.of("branch", "pr width resolution arc", "above ke nu off_linear",
+BRANCH = Table.of("branch", "pr width resolution arc", "ra above ke nu off_linear",
                   about="A steady state of the Boussinesq fluid on its branch, from rest (arc 0) on.",
                   means={"arc": ("length of the branch up to here, in amplitudes and (Ra_c/Ra)^(1/2)", ""),
-                         "above": ("Ra/Ra_c - 1, Ra_c of the same functions", ""),
+                         "above": ("Ra over that of arc 0, less 1", ""),
                          "width": ("of the box, in heights", ""),
                          "resolution": ("functions along an axis", ""),
-                         "off_linear": ("Ra_c over that of linear theory, less 1", "")})
+                         "off_linear": ("Ra of arc 0 over that of linear theory, less 1", "")})
 
 ALL = (GROWTH, ENERGIES, LINE_TABLE, CRITICAL, BRANCH)
 
