@@ -51,7 +51,7 @@ CLAIMS = (
     Claim(id="own-cavity-limits", **OWN, at_most=1, because="intervals are of 95 %",
           value=largest_per("ra", abs(one("cavity", "value", **LIMIT) - exact(quantity="nu"))
                             / one("cavity", "err", **LIMIT)),
-          statement="Nu of the cavity lies in the intervals of the staggered grid's limits: distance over "
-                    "half of the interval, largest of all Ra"),
+          statement="Nu of the cavity lies in the intervals of the limits of staggered grids of 32 to 96 "
+                    "rows: distance over half of the interval, largest of all Ra"),
     *printed(),
 )

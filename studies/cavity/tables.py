@@ -7,6 +7,5 @@ CAVITY = Table.of(
           "places in L from the lower left corner.",
     means={"quantity": ("as in continuum/published/devahldavis.csv: nu of the mean, nu-max of the hot side, "
                         "u-max on the upright, v-max on the level middle line, psi-middle", ""),
-           "value": ("the number", ""),
            "err": ("of the spectral method what more functions change, the most of those before; of limits "
                    "half of the 95 % interval", "")})
