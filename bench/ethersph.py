@@ -2,8 +2,8 @@
 
     python -m bench.ethersph [--rows 50 100] [--ra 1e3 1e6] [--factor 1]
 
-Weakly compressible smooth particles: Wendland C2 of range 3 spacings, density by continuity, P = c^2 (rho - 1)
-+ 0.02 c^2, a pair's pressure 1 % stronger where it is near, Morris' friction, Brookshaw's heat, all with
+Weakly compressible smooth particles: Wendland C2 of range 3 spacings, density by continuity, P = c^2 (rho -
+1) + 0.02 c^2, a pair's pressure 1 % stronger where it is near, Morris' friction, Brookshaw's heat, both with
 0.01 h^2 under the line; three rows of wall particles at rest whose conductivity is multiplied by a factor of
 its own at each Ra; a force that keeps particles off walls; Shepard's filter of the density every 30 steps.
 `heat` is what the hot and the cold side exchange with the fluid, over conduction; `read` is Nu as the code
@@ -165,7 +165,7 @@ def held_off(dx, dy, r, v, normal, by):
 
 
 def as_read(x: np.ndarray, kind: np.ndarray, T: np.ndarray, rows: int) -> float:
-    """Nu from T smoothed by exp(-(2 r/range)^2) on lattices at x = 0 and one spacing further, by differences."""
+    """Nu from T smoothed by exp(-(2 r/range)^2) at x = 0 and one spacing further, by differences."""
     y = np.linspace(0, 1, rows + 1)
     known, columns = kind != CLOSED, []
     tree, points, values = cKDTree(x[known]), x[known], T[known]
@@ -191,7 +191,8 @@ def run(ra: float, rows: int, factor: float) -> dict[str, Any]:
     for step in range(steps):
         if not np.abs(x - anchor).max() < SKIN*by.a/2/2**0.5:
             anchor, reach = x.copy(), by.reach + SKIN*by.a
-            lists = make_lists(threads, sort_into_cells(*x.T.copy(), reach), *x.T.copy(), reach, 0)
+            across, up = x.T.copy()
+            lists = make_lists(threads, sort_into_cells(across, up, reach), across, up, reach, 0)
         continue_density(n, lists, x, v, rho, by, dt)
         rate(n, lists, x, v, rho, T, kind, normal, by, dv, dT, heat)
         x[:n] += dt*v[:n] + dt*dt/2*dv
