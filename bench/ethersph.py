@@ -24,11 +24,11 @@ from scipy.spatial import cKDTree
 from continuum.jit import jit
 from particles.neighbours import make_lists, sort_into_cells
 from particles.threads import Threads
-from studies.kit.csvfile import commit, cpu, now, put, versions
+from studies.kit.csvfile import commit, cpu, now, read, versions, write
 from studies.kit.key import ROOT
 from studies.kit.stats import over_seeds
 
-FILE = ROOT/"results"/"bench"/"ethersph.csv"
+FILE, KEY = ROOT/"results"/"bench"/"ethersph.csv", ["ra", "rows", "factor"]
 PR, RANGE, SOFT, REFILTER, BACKGROUND = 0.71, 3.0, 0.01, 30, 0.02
 #: Ra -> speed of sound, factor of the walls' conductivity, time of the run
 RUNS = {1e3: (3.0, 0.58, 50.0), 1e4: (3.5, 0.48, 50.0), 1e5: (4.0, 0.36, 50.0), 1e6: (4.5, 0.20, 60.0)}
@@ -208,6 +208,13 @@ def run(ra: float, rows: int, factor: float) -> dict[str, Any]:
             "read_err": read_err, "inside": float(inside), "steps": steps}
 
 
+def keep(row: pd.DataFrame) -> None:
+    """In the table, in place of an older one."""
+    table = pd.concat([read(FILE), row]) if FILE.exists() else row
+    table = table.drop_duplicates(KEY, keep="last").sort_values(KEY)
+    write(FILE, table, head=["python -m bench.ethersph", versions(), cpu()])
+
+
 def main() -> None:
     """As the head says."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
@@ -219,8 +226,7 @@ def main() -> None:
         for ra in words.ra:
             row = run(ra, rows, words.factor or RUNS.get(ra, (0, 1.0))[1])
             print(row, flush=True)
-            put(FILE, pd.DataFrame([row | {"commit": commit(), "date": now()}]), by=["ra", "rows", "factor"],
-                order=["ra", "rows", "factor"], head=["python -m bench.ethersph", versions(), cpu()])
+            keep(pd.DataFrame([row | {"commit": commit(), "date": now()}]))
 
 
 if __name__ == "__main__":
