@@ -8,7 +8,7 @@ from studies.cavity.cases import RAS
 from studies.kit.ask import Value, largest, largest_per, last, one
 from studies.kit.claim import Claim
 
-#: what de Vahl Davis says that his errors are at these Ra, relative (his Table VII)
+#: his own errors, relative: Table VII of de Vahl Davis 1983 as the notes on Datum Flow 0.1.3 quote it
 HIS = dict(zip(RAS, (1e-3, 2e-3, 3e-3, 1e-2)))
 OWN: dict[str, Any] = {"source": "de Vahl Davis 1983"}
 LIMIT: dict[str, Any] = {"such": "resolution == inf", "err": "0", "method": "boussinesq"}
