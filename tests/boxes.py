@@ -6,13 +6,12 @@ from scipy.sparse.linalg import eigs
 from continuum.boussinesq import HALF_LAYER, BoussinesqCase, Box, BoxEdges, End, State
 from continuum.boussinesq.newton import InStreamfunction
 from continuum.boussinesq.projection import Projection
+from studies.cavity.cases import CAVITY
 
 INSULATED = BoxEdges(flow=End.WALL, heat=End.MIRROR)
 FREE_HALF = Box(width=1.3, plates=BoxEdges(flow=End.MIRROR, heat=End.WALL, low=0.5, high=-0.5))
 SQUARE = Box(sides=INSULATED)
 CONDUCTING_SQUARE = Box(sides=BoxEdges(flow=End.WALL, heat=End.WALL, low=0.5, high=0.5, ramp=-1.0))
-CAVITY = Box(plates=INSULATED,              # de Vahl Davis: hot left side, cold right side
-             sides=BoxEdges(flow=End.WALL, heat=End.WALL, low=0.5, high=-0.5))
 BOXES = {"half layer": HALF_LAYER, "free plates": FREE_HALF, "square": SQUARE,
          "conducting": CONDUCTING_SQUARE, "cavity": CAVITY}
 every_box = pytest.mark.parametrize("box", BOXES.values(), ids=BOXES)

@@ -8,11 +8,12 @@ from studies.build import variant
 from studies.cost import tables
 from studies.cost.cases import CONTESTS
 from studies.cost.derive import growth_laws
+from studies.cost.modes import SpectralRace
 from studies.cost.problem import HALVINGS, STRETCH, STRETCHES, WORTH, Problem, Result, best, climb, rms
 from studies.cost.race import Race, SolverRace
 from studies.cost.rolls import END, LATE, OFTEN, SETTLED, Followed, HeatedLayer
 from studies.cost.seconds import Flock, TwoThreads, per_step
-from studies.cost.tables import GRID, LATTICE, MAC, NEAREST, PYPDE, WIDE
+from studies.cost.tables import GRID, LATTICE, MAC, NEAREST, PYPDE, SPECTRAL, WIDE
 
 COLUMNS = {table.name: table.columns for table in tables.TABLES}
 
@@ -181,3 +182,11 @@ def test_flows_that_fluctuate_count_the_time_that_their_average_needs():
     done = Followed(T, 1 + 0.01*np.random.default_rng(1).normal(size=len(T)), None)
     coarse, fine = (HeatedLayer(late=SETTLED).needed(done, error) for error in (0.1, 2e-3))
     assert coarse < 0.05*END and fine > 0.05*END
+
+
+def test_the_spectral_method_errs_exponentially_less_with_more_functions():
+    """K of 4, 8, 12 functions: a third with every four would be second order; `paper` goes on to 1e-9."""
+    rows = {n: rows_of(SpectralRace, "convection", SPECTRAL, n)[0] for n in (4, 8, 12)}
+    errors = [abs(row["error"]) for n in rows for row in rows[n]["errors"] if row["quantity"] == "K"]
+    assert errors[2] < errors[1]/10 < errors[0]/100 and errors[2] > 1e-6
+    assert set(rows[12]["runs"][0]) == set(COLUMNS["runs"]) and rows[12]["runs"][0]["run_s"] > 0

@@ -25,6 +25,7 @@ FAMILIES = {
     "grid": ("#000000", "X"),
     "mac": ("#882255", "P"),
     "py-pde": ("#E69F00", "*"),
+    "spectral": ("#332288", "p"),
     "fixed-lattice": ("#0072B2", "o"),
     "fixed-jittered": ("#56B4E9", "^"),
     "spam-corrected": ("#CC79A7", "v"),

@@ -9,6 +9,7 @@ from studies.kit.table import Table
 GRID = "grid"
 MAC = "mac"
 PYPDE = "py-pde"
+SPECTRAL = "spectral-gas"
 NEAREST = "fixed-lattice-h1.2"
 LATTICE = "fixed-lattice"
 WIDE = "fixed-lattice-h3"
@@ -16,14 +17,15 @@ JITTERED = "fixed-jittered-plates"
 LUCY = "spam"
 MOVING = "moving"
 CARRIED = "moving-delaunay"
-METHODS = (GRID, MAC, PYPDE, NEAREST, LATTICE, WIDE, JITTERED, "fixed-jittered-delaunay",
+METHODS = (GRID, MAC, PYPDE, SPECTRAL, NEAREST, LATTICE, WIDE, JITTERED, "fixed-jittered-delaunay",
            "fixed-jittered-0.2-plates", LUCY, "spam-monaghan", "spam-wendland-c2", "spam-less-static-50",
            "spam-corrected", CARRIED, MOVING)
 
 RUN = "scene method resolution seed"
 SERIES = "scene quantity method"
-COUNT = {"points": ("number of points or cells", ""),
-         "resolution": ("points to the wavelength (taylor-green, sound) or rows to the height", "")}
+COUNT = {"points": ("number of points, of cells or of functions", ""),
+         "resolution": ("points to the wavelength (taylor-green, sound) or rows to the height, of "
+                        "spectral-gas functions along an axis", "")}
 SECONDS = {"cpu_s": ("CPU seconds of all steps and of setting up", "s")}
 POINTS = Table.of(
     "points", f"{SERIES} resolution", "points seeds error error_err cpu_s cpu_s_err setup_s",

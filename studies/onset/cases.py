@@ -11,7 +11,7 @@ from continuum.fluid import ConstEta, ConstNu, IdealGas, VanDerWaals
 from continuum.scene import RayleighBenard, Walls
 from studies.build.spam import PRINTED, VARIANTS
 from studies.kit.case import Case
-from studies.onset.rates import GridGrowth, LinearTheory
+from studies.onset.rates import Branch, GridGrowth, LinearTheory
 from studies.onset.runs import LINES, GrowthRun, OnsetEnergies, SpamGrowth
 
 PR = 2.0            # of linear theory; heat moves isobarically in the gas, whose nu = kappa makes 2 of it
@@ -32,6 +32,8 @@ LAYER = RayleighBenard(ra=1700.0)
 SQUARE = replace(LAYER, aspect=1.0, sides=Walls())
 #: of the other law and of a small difference of temperature
 OTHERS = (replace(LAYER, transport=ConstNu), replace(LAYER, T_hot=1.05, T_cold=0.95))
+#: along branches, from rest: the first tell the law of the amplitude
+ARCS = (0.002, 0.002, 0.004, 0.008, 0.016, 0.032, 0.064, *8*(0.1,))
 THEORY = LinearTheory(ras=tuple(sorted({*NEAR, *STRONG})), pr=PR)
 
 
@@ -66,4 +68,7 @@ def cases(size: str) -> list[Case]:
     rolls = [particles(16, seeds=(1,), every=2)] if quick else [particles(25)]
     if size == "fine":
         rolls += [particles(rows) for rows in (16, 35, 50)]
-    return [THEORY, *growth(grids, differences), *energies, *others, *strong, *chain(*rolls)]
+    boxes = product((0.71, 1.0), (1.0, 2.0))      # Pr, width
+    branches = ([Branch(pr=1.0, width=2.0, functions=8, steps=ARCS[:3])] if quick else
+                [Branch(pr=pr, width=width, functions=16, steps=ARCS) for pr, width in boxes])
+    return [THEORY, *growth(grids, differences), *energies, *others, *strong, *chain(*rolls), *branches]

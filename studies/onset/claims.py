@@ -8,7 +8,7 @@ from functools import partial
 from typing import Any
 
 from studies.build.names import as_printed
-from studies.kit.ask import Value, of, one
+from studies.kit.ask import Value, largest, of, one, power
 from studies.kit.claim import Claim
 from studies.kit.stats import Measured
 from studies.kit.table import Tables
@@ -102,4 +102,15 @@ ONSET_CLAIMS = (
           at_most=0.5e-4, because=FIVE,
           statement="the line of K extrapolated in L^-2 gives five figures of the critical Ra of the "
                     "square: difference from growth rates", value=off_growth_rates(SQUARE, LINE_L2)),
+    Claim(id="own-onset-branch-root", source="KHP95 Sec. V", expect=0.5, within=1e-3,
+          value=power("branch", "sqrt(ke)", "above", "0 < above < 1e-3", width=2, pr=1),
+          because="rolls that rise or sink at x = 0 are alike; the next term is as large as Ra/Ra_c - 1",
+          statement="the branch of rolls leaves rest with the square root of Ra - Ra_c: exponent of their "
+                    "velocity, Boussinesq fluid, Ra within 0.1 % of the onset"),
+    Claim(id="own-onset-branch-linear", source="KHP95 Sec. IV", at_most=1e-10,
+          value=largest("branch", "abs(off_linear)", "arc == 0", err="0"),
+          because="half of the tenth digit of a number that begins with five",
+          after="a test had found ten digits with 12 functions",
+          statement="the spectral method gives ten digits of the onset: distance from linear theory, pairs "
+                    "of rolls 2 and 1 wide, relative"),
 )

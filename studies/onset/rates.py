@@ -17,6 +17,7 @@ from continuum.gas.ghosts import FluxForm, box_of
 from continuum.gas.loop import rates
 from continuum.linear import DEGREE, PlateKind, critical, critical_ra, growth_rate
 from continuum.scene import RayleighBenard, Walls
+from continuum.spectral.branch import branch
 from studies.build.names import scene_columns
 from studies.kit.case import Case, Outcome, Report
 
@@ -116,3 +117,28 @@ class GridGrowth(Case):
             sigma, err = compressible(scene, size)
             rows.append(at | {"way": "operator", "sigma": sigma, "err": err})
         return Outcome({"growth_rates": rows})
+
+
+@dataclass(frozen=True, kw_only=True)
+class Branch(Case):
+    """Steady rolls of the Boussinesq fluid, followed from rest along their arc, beside linear theory."""
+    pr: float
+    width: float
+    functions: int
+    steps: tuple[float, ...]
+
+    @property
+    def cost(self) -> float:
+        return 1e-8*self.functions**6*len(self.steps)
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        states, rows = branch(self.pr, self.functions, self.steps, self.width), list[dict[str, Any]]()
+        arcs, ra_c = np.cumsum([0.0, *self.steps]), critical_ra(2*np.pi/self.width)
+        for arc, state in zip(arcs, states):
+            ra = state.equations.laws.ra
+            first = rows[0]["ra"] if rows else ra
+            rows.append({"pr": self.pr, "width": self.width, "resolution": self.functions, "arc": float(arc),
+                         "ra": ra, "above": ra/first - 1, "ke": state.K, "nu": state.Nu,
+                         "off_linear": first/ra_c - 1})
+            report(len(rows)/len(arcs))
+        return Outcome({"branch": rows})

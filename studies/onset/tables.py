@@ -37,7 +37,15 @@ CRITICAL = Table.of("critical_ra", "method quantity",
                                         "in brackets how it was found: a limit where no rows are named", ""),
                            "value": ("critical Rayleigh number", "")})
 
-ALL = (GROWTH, ENERGIES, LINE_TABLE, CRITICAL)
+BRANCH = Table.of("branch", "pr width resolution arc", "ra above ke nu off_linear",
+                  about="A steady state of the Boussinesq fluid on its branch, from rest (arc 0) on.",
+                  means={"arc": ("length of the branch up to here, in amplitudes and (Ra_c/Ra)^(1/2)", ""),
+                         "above": ("Ra over that of arc 0, less 1", ""),
+                         "width": ("of the box, in heights", ""),
+                         "resolution": ("functions along an axis", ""),
+                         "off_linear": ("Ra of arc 0 over that of linear theory, less 1", "")})
+
+ALL = (GROWTH, ENERGIES, LINE_TABLE, CRITICAL, BRANCH)
 
 # --- what follows from them ---------------------------------------------------------------------------------
 

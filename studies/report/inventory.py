@@ -18,8 +18,8 @@ HIDDEN = ("raw", "quick", "films", "gallery", "own")
 #: what the folder asks that no study fills
 OF_BENCH = "Speed beside public codes, in one run"
 #: the order of the page; studies that are not named follow by name
-FIRST = ("rb", "cost", "streams", "hardcases", "onset", "operators", "ordering", "conservation", "noise",
-         "lattices")
+FIRST = ("rb", "cost", "streams", "hardcases", "onset", "cavity", "operators", "ordering", "conservation",
+         "noise", "lattices")
 
 
 class NoReport(ValueError):

@@ -29,7 +29,13 @@ def speed(name: str, about: str) -> Table:
 OTHERS = {
     "bench": [speed("spam_speed", "Smooth particles beside LAMMPS"),
               speed("points_speed", "Points that stay and that move"),
-              speed("dpd_speed", "Dissipative particles beside LAMMPS")],
+              speed("dpd_speed", "Dissipative particles beside LAMMPS"),
+              Table.of("ethersph", "ra rows factor", "heat heat_err read read_err inside steps commit date",
+                       about="The cavity by the scheme of EtherSPH.jl, made again.",
+                       means={"factor": ("of the conductivity of walls", ""),
+                              "heat": ("that the sides exchange, over conduction", ""),
+                              "read": ("Nu as the code reads it, from smoothed temperatures", ""),
+                              "inside": ("share of particles between the walls at the end", "")})],
     "films": [FILMS]}
 HEAD = Path(__file__).parent/"sentences"/"tables.md"
 

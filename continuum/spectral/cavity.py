@@ -1,0 +1,96 @@
+"""The square with a hot left side, a cold right one, insulated above and below, as a Boussinesq fluid.
+
+Polynomials along both axes. Velocities vanish at all sides; T is warm - x, and what is warm vanishes left and
+right, while above and below no heat leaves because no term lets it. Half a turn maps the flow onto itself: of
+the products of two polynomials one half is left out.
+
+    observed(steady(CavityLaws(1e6, 0.71), 48))["nu"]
+"""
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+from numpy.polynomial import legendre
+
+from continuum.spectral.laws import BoussinesqLaws, stacked
+from continuum.spectral.modes import RHO, VX, VY, T, along_y
+from continuum.spectral.newton import Galerkin, SpectralState, step
+from continuum.steady import newton
+
+
+@dataclass(frozen=True)
+class CavityLaws(BoussinesqLaws):
+    """In free-fall units of the height and the difference of both sides."""
+    width: float = 1.0
+
+    def terms(self, at: np.ndarray, x: np.ndarray) -> np.ndarray:
+        """(law, term, ...), as of `BoussinesqLaws`, at places along x."""
+        (u, u_x, u_y), (v, v_x, v_y), (p, _, _), (warm, T_x, T_y) = at
+        nu, kappa, T = float((self.pr/self.ra)**0.5), self.units[2], warm - x
+        return stacked([
+            [0, u*u + p - nu*u_x, u*v - nu*u_y, u],
+            [T, u*v - nu*v_x, v*v + p - nu*v_y, v],
+            [0, u, v, 0],
+            [0, u*T - kappa*(T_x - 1), v*T - kappa*T_y, T]])
+
+
+class Cavity(Galerkin):
+    """The same polynomials along both axes, but those of T need not vanish above and below."""
+
+    def __init__(self, laws: CavityLaws, n: int):
+        super().__init__(laws, n)
+        self.x = along_y(n)
+        self.y = self.x._replace(functions=self.x.functions[:, [VX, VY, RHO, RHO]])
+        self.weights = np.outer(self.x.weights, self.x.weights)
+        odd = np.add.outer(np.arange(n), np.arange(n)) % 2 == 1
+        self.kept = np.array([odd, odd, ~odd, odd])     # u, v and T change their sign by half a turn
+        self.kept[RHO, 0, 0] = False        # the mean
+
+    def terms(self, at: np.ndarray) -> np.ndarray:
+        return self.laws.terms(at, self.x.points[:, None])  # type: ignore[no-any-return]
+
+
+def steady(laws: CavityLaws, n: int, start: SpectralState | None = None) -> SpectralState:
+    """The steady state on n polynomials along an axis that a start leads to, by default that at rest.
+
+    Raises ValueError: n. NewtonFailed: no convergence; start from a smaller Ra.
+    """
+    equations, every = Cavity(laws, n), np.zeros((4, n, n))
+    if start:
+        both = min(n, start.equations.n)
+        every[:, :both, :both] = start.equations.amplitudes(start.q)[:, :both, :both]
+    return SpectralState(equations, *newton(every[equations.kept], partial(step, equations),
+                                            f"{laws}, {n} functions"))
+
+
+def observed(state: SpectralState) -> dict[str, float]:
+    """The numbers that de Vahl Davis prints, by the names in `published/devahldavis.csv`: velocities in
+    kappa/L, places in L from the lower left corner."""
+    equations, kappa = state.equations, state.equations.laws.units[2]
+    u, v, _, warm = series(state)
+    heat = np.average(equations.terms(state.at)[T, 1], weights=equations.weights)/kappa
+    hot = np.append(1.0, np.zeros(len(warm) - 1)) - 2*legendre.legval(-1, legendre.legder(warm))
+    across, upright = legendre.legval(0, u)/kappa, legendre.legval(0, v.T)/kappa
+    psi = abs(legendre.legval(0, legendre.legint(across, lbnd=-1)))/2
+    names = ("nu-max", "nu-max-y", "u-max", "u-max-y", "v-max", "v-max-x")
+    peaks = [number for line in (hot, across, upright) for number in peak(line)]
+    return {"nu": float(heat), "nu-min": -peak(-hot)[0], "psi-middle": float(psi), **dict(zip(names, peaks))}
+
+
+def series(state: SpectralState) -> np.ndarray:
+    """Coefficients (4, n + 2, n + 2) of P_k(2x) P_m(2y) in the fields."""
+    a = np.pad(state.equations.amplitudes(state.q), ((0, 0), (0, 2), (0, 2)))
+    zero_x, zero_y = [VX, VY, T], [VX, VY]
+    a[zero_x, 2:] -= a[zero_x, :-2]
+    a[zero_y, :, 2:] -= a[zero_y, :, :-2]
+    return a
+
+
+def peak(line: np.ndarray) -> tuple[float, float]:
+    """The largest value of a series in P_k(2s) on -1/2 < s < 1/2, and its distance from the lower end."""
+    roots = legendre.legroots(legendre.legder(line))
+    inside = roots.real[(abs(roots.imag) < 1e-9) & (abs(roots.real) < 1)]
+    z = np.array([-1.0, *inside, 1.0])
+    values = legendre.legval(z, line)
+    at = int(np.argmax(values))
+    return float(values[at]), float((z[at] + 1)/2)

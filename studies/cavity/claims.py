@@ -1,0 +1,57 @@
+"""Printed numbers of the cavity, of de Vahl Davis and of particles, judged by the spectral method."""
+from collections.abc import Iterator
+from itertools import product
+from typing import Any
+
+from continuum.published import published
+from studies.cavity.cases import RAS
+from studies.kit.ask import Value, largest, largest_per, last, one
+from studies.kit.claim import Claim
+
+#: his own errors, relative: Table VII of de Vahl Davis 1983 as the notes on Datum Flow 0.1.3 quote it
+HIS = dict(zip(RAS, (1e-3, 2e-3, 3e-3, 1e-2)))
+OWN: dict[str, Any] = {"source": "de Vahl Davis 1983"}
+LIMIT: dict[str, Any] = {"such": "resolution == inf", "err": "0", "method": "boussinesq"}
+
+
+def exact(**where: Any) -> Value:
+    """By the most functions."""
+    return last("cavity", "value", by="resolution", err="err", method="spectral-boussinesq", **where)
+
+
+def printed_of(name: str, ra: float, quantity: str, share: float, **words: Any) -> Claim:
+    """A printed number, with a share of it for its error."""
+    id = f"{name}-{ra:.0e}".replace("+0", "")
+    number = published(id).value
+    return Claim(id=id, printed=f"{number:.9g}", value=exact(ra=ra, quantity=quantity), expect=number,
+                 within=share*number, **words)
+
+
+def printed() -> Iterator[Claim]:
+    """All of them."""
+    for ra, quantity in product(RAS, ("nu", "nu-max", "u-max", "v-max")):
+        yield printed_of(f"devahldavis-{quantity}", ra, quantity, HIS[ra], source="de Vahl Davis 1983",
+                         because="what his Table VII says of his errors",
+                         after="five digits of another spectral solution stood beside the number",
+                         statement=f"{quantity} of the cavity at Ra {ra:g}")
+    for ra, (version, words) in product(RAS, {"nu": ", walls fitted at each Ra", "before": ""}.items()):
+        yield printed_of(f"ethersph-{version}", ra, "nu", 0.01, source="EtherSPH.jl 2024",
+                         because="1 %, the error at which methods are compared",
+                         after="references of three digits stood beside the number",
+                         statement=f"nu of the cavity at Ra {ra:g} by smooth particles{words}")
+
+
+CLAIMS = (
+    Claim(id="own-cavity-digits", **OWN, at_most=5e-9,
+          value=largest("cavity", "err/value", err="0", method="spectral-boussinesq", quantity="nu",
+                        resolution=48),
+          because="half of the eighth digit of a number that begins with nine",
+          statement="Nu of the cavity has eight digits: what the last eight functions change, relative, "
+                    "largest of all Ra"),
+    Claim(id="own-cavity-limits", **OWN, at_most=1, because="intervals are of 95 %",
+          value=largest_per("ra", abs(one("cavity", "value", **LIMIT) - exact(quantity="nu"))
+                            / one("cavity", "err", **LIMIT)),
+          statement="Nu of the cavity lies in the intervals of the limits of staggered grids of 32 to 96 "
+                    "rows: distance over half of the interval, largest of all Ra"),
+    *printed(),
+)
