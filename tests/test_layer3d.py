@@ -91,7 +91,7 @@ def test_mass_stays_and_energy_comes_through_plates_alone():
 def test_the_motionless_state_stays_to_round_off_on_points_and_of_the_spectral_gas():
     for fluid in (space(), GasInSpace(SCENE, 9)):
         n = len(fluid.x)
-        state, out = fluid.state(np.ones(n), np.zeros((n, 3)), SCENE.T(fluid.x[:, 2])), np.full((5, n), np.nan)
+        state, out = fluid.state(np.ones(n), np.zeros((n, 3)), SCENE.T(fluid.x[:, 2])), np.empty((5, n))
         fluid.rates(state, out)
         assert np.abs(out).max() < 1e-13
 

@@ -147,7 +147,7 @@ def step_change(changes: pd.DataFrame, row: Row) -> pd.Series:
 
 
 def in_space(tables: Tables) -> Iterator[Row]:
-    """Limits of three sizes or more that end in one pattern: of a lattice over 1/rows^2; of the spectral gas the
+    """Limits of three sizes or more in one pattern: of a lattice over 1/rows^2; of the spectral gas the
     finest run, its error what the last step of sizes changed.
     """
     by = "method variant start ra".split()
