@@ -3,6 +3,7 @@ from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
+import pandas as pd
 import pytest
 from crowd import random_fields, rates
 
@@ -18,6 +19,7 @@ from particles.integral.layer import Layer
 from particles.integral.layer3d import Layer3D
 from particles.integral.points import lattice, of_positions
 from particles.weights import Lucy
+from studies.rb.derive import in_space
 from studies.rb.runs.space import InSpace
 
 ROWS, DEEP = 8, 6
@@ -120,3 +122,12 @@ def test_what_a_layer_in_space_cannot_be_is_refused(wrong, words):
 def test_an_even_number_of_functions_or_too_few_are_refused(n):
     with pytest.raises(ValueError, match=f"odd number n > 4 .* {n}"):
         GasInSpace(SCENE, n)
+
+
+@pytest.mark.parametrize(("across", "number"), [((0.0, 0.01, 0.0), 1), ((0.0, 0.5, 1.0), 0)])
+def test_sizes_that_end_in_one_pattern_have_a_limit_and_others_none(across, number):
+    point = {"method": "dih", "variant": "fixed-lattice", "start": "crossed", "ra": 5e3, "ke_err": 0.0,
+             "nu": 1.5, "nu_err": 0.0, "oblique": 0.0, "converged": True}
+    runs = [point | {"resolution": n, "ke": 3 + n**-2, "across": a} for n, a in zip((12, 16, 20), across)]
+    limits = list(in_space({"three_dimensions": pd.DataFrame(runs)}))
+    assert [row["ke"] for row in limits] == pytest.approx([3.0]*number, abs=1e-12)

@@ -14,7 +14,7 @@ from continuum.scene import Periodic, RayleighBenard, Walls
 from particles.weights import Lucy, Monaghan, WendlandC2, WendlandC4, WendlandC6
 from studies.build.grid import FORMS
 from studies.build.measure import Smoothing
-from studies.build.spam import PRINTED, TODAY, VARIANTS, Variant, variant_of
+from studies.build.spam import PRINTED, STEPS, TODAY, VARIANTS, Variant, variant_of
 from studies.kit.case import Case
 from studies.rb.points import points
 from studies.rb.runs import grid as truth
@@ -154,7 +154,8 @@ def checks() -> Iterator[Case]:
     for rows in (25, 35, 50):
         yield from spam(2500.0, rows, variant=flow, keep="history", t_end=150.0, mean_from=100.0)
     yield from spam(7000.0, 40, variant=flow, keep="history", t_end=150.0, mean_from=100.0, **BOX)
-    yield from spam(3000.0, 16, variant=half, **DENSE)
+    for variant in (half, *STEPS.values()):
+        yield from spam(3000.0, 16, variant=variant, **DENSE)
     yield from spam(3000.0, 16, variant=half, **VDW)
     yield from spam(1e4, 50, MANY, variant=half)
     yield from spam(1e4, 50, variant=half, **VDW)
