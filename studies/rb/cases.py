@@ -120,7 +120,7 @@ def grids() -> Iterator[Case]:
 
 def in_space() -> Iterator[Case]:
     """A box of 2:2:1: rolls, which are those of the plane, rolls that others cross, and squares."""
-    lattices = {"rolls": (16, 20, 24, 32), "crossed": (8, 12, 16), "squares": (12, 16, 20, 24)}
+    lattices = {"rolls": (16, 20, 24, 32), "crossed": (8, 12, 16, 20), "squares": (12, 16, 20, 24)}
     for start, sizes in lattices.items():
         # rolls across stronger ones fade by a half in 24 free-fall times
         case = partial(InSpace, start=start, t_end=200.0 if start == "crossed" else 120.0)
