@@ -135,12 +135,15 @@ TODAY = {v.name: v._replace(weight=WendlandC2, walls=images_odd) for v in (
     Variant("corrected", transport=AllCorrected),
     Variant("corrected-half-step", transport=AllCorrected, step=OF_LIMIT/2),
 )}
+#: what a step that vanishes would leave of a frozen fluid
+STEPS = {name: PRINTED._replace(name=name, step=OF_LIMIT/part)
+         for name, part in (("printed-quarter-step", 4), ("printed-eighth-step", 8))}
 JOINT = "-joint"
 
 
 def variant_of(name: str, rows: float) -> Variant:
     """`-joint` in its name: the range grows as rows^(1/2)    [Zhu, Hernquist & Li 2015]"""
-    usual = (VARIANTS | TODAY)[name.removesuffix(JOINT)]
+    usual = (VARIANTS | TODAY | STEPS)[name.removesuffix(JOINT)]
     return usual._replace(name=name, h=usual.h*(rows/25)**0.5) if name.endswith(JOINT) else usual
 
 

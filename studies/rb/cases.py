@@ -5,6 +5,7 @@ minute) the same path small, `fine` (hours) all variants, walls, resolutions, an
 """
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import partial
 from itertools import product
 from typing import Any
 
@@ -13,12 +14,13 @@ from continuum.scene import Periodic, RayleighBenard, Walls
 from particles.weights import Lucy, Monaghan, WendlandC2, WendlandC4, WendlandC6
 from studies.build.grid import FORMS
 from studies.build.measure import Smoothing
-from studies.build.spam import PRINTED, TODAY, VARIANTS, Variant, variant_of
+from studies.build.spam import PRINTED, STEPS, TODAY, VARIANTS, Variant, variant_of
 from studies.kit.case import Case
 from studies.rb.points import points
 from studies.rb.runs import grid as truth
 from studies.rb.runs.arithmetic import SUBJECTS, WithoutFlow
 from studies.rb.runs.grid import BoussinesqSteady, CompressibleApproach, CompressibleSteady, PypdeSteady
+from studies.rb.runs.space import InSpace
 from studies.rb.runs.spam import SpamRun
 
 LAYER: dict[str, Any] = {"aspect": 2.0, "sides": Periodic()}     # Fig. 5
@@ -116,6 +118,16 @@ def grids() -> Iterator[Case]:
     yield gas(1e4, (16, 24, 32, 48), form="paper-form", longest=3.0)    # it loses mass and never settles
 
 
+def in_space() -> Iterator[Case]:
+    """A box of 2:2:1: rolls, which are those of the plane, rolls that others cross, and squares."""
+    lattices = {"rolls": (16, 20, 24, 32), "crossed": (8, 12, 16, 20), "squares": (12, 16, 20, 24)}
+    for start, sizes in lattices.items():
+        # rolls across stronger ones fade by a half in 24 free-fall times
+        case = partial(InSpace, start=start, t_end=200.0 if start == "crossed" else 120.0)
+        yield from (case(scene=RayleighBenard(ra=5e3, L=float(rows))) for rows in sizes)
+        yield from (case(scene=RayleighBenard(ra=5e3), n=n) for n in (13, 15, 17))
+
+
 def layers() -> Iterator[Case]:
     """Particles in the layer, Figs 2, 3, 5, 8, 9, 12: numbers, fluids, walls; half of the time step."""
     for ra in RA:
@@ -142,7 +154,8 @@ def checks() -> Iterator[Case]:
     for rows in (25, 35, 50):
         yield from spam(2500.0, rows, variant=flow, keep="history", t_end=150.0, mean_from=100.0)
     yield from spam(7000.0, 40, variant=flow, keep="history", t_end=150.0, mean_from=100.0, **BOX)
-    yield from spam(3000.0, 16, variant=half, **DENSE)
+    for variant in (half, *STEPS.values()):
+        yield from spam(3000.0, 16, variant=variant, **DENSE)
     yield from spam(3000.0, 16, variant=half, **VDW)
     yield from spam(1e4, 50, MANY, variant=half)
     yield from spam(1e4, 50, variant=half, **VDW)
@@ -212,6 +225,7 @@ def fine() -> Iterator[Case]:
     yield from more()
     yield from joint()
     yield from today()
+    yield from in_space()
     for ra, rows in product((1500.0, 2500.0, 20000.0), (25, 35)):
         yield from spam(ra, rows)
     for ra in (2500.0, 10000.0):

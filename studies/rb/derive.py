@@ -22,6 +22,7 @@ HALF = "-half-step"
 #: the finest over the coarsest size from which a limit of points takes 1/rows^3 besides: 80 and 25 rows. Both
 #: were set after a look: at 12 to 40 rows of moving points, then at lattices at rest, whose K has that power
 COARSEST = 3.2
+SAME_PATTERN = 0.1     # of the weaker over the stronger wave
 #: columns of the finest run that an extrapolated row takes over, and sums of all
 SAME = ["rolls", "free_fall", "converged", "threads"]
 SPENT = ["cpu_s", "compile_s"]
@@ -41,6 +42,7 @@ def derive(tables: Tables) -> Rows:
         "errors": errors(runs, means, tables).to_dict("records"),
         "snapshots": list(snapshots(tables)),
         "field_errors": list(field_errors(tables, means)),
+        "three_dimensions": list(in_space(tables)),
     }
 
 
@@ -142,6 +144,26 @@ def step_change(changes: pd.DataFrame, row: Row) -> pd.Series:
     if row["method"] != "spam" or chosen.empty:
         return pd.Series(0.0, ENERGIES)
     return chosen[ENERGIES].iloc[0]
+
+
+def in_space(tables: Tables) -> Iterator[Row]:
+    """Limits of three sizes or more in one pattern: of a lattice over 1/rows^2; of the spectral gas the
+    finest run, its error what the last step of sizes changed.
+    """
+    by = "method variant start ra".split()
+    runs = finite(tables["three_dimensions"]) if "three_dimensions" in tables else pd.DataFrame(columns=by)
+    for key, group in runs.groupby(by):
+        group = group.sort_values("resolution")
+        if len(group) < 3 or np.ptp(group.across) > SAME_PATTERN:
+            continue
+        row: Row = {**group.iloc[-1][["across", "oblique", "converged"]], **dict(zip(by, key))}
+        for name in ("ke", "nu"):
+            *_, before, value = group[name]
+            limit = (fits.grid_limit(group.resolution, group[name]) if key[0] == "dih"
+                     else Measured(value, abs(value - before)))
+            limit += Measured(0.0, 2*group[f"{name}_err"].max())
+            row |= {name: limit.value, f"{name}_err": limit.err}
+        yield row | {"resolution": np.inf, "particles": 0}
 
 
 def errors(runs: pd.DataFrame, means: pd.DataFrame, tables: Tables) -> pd.DataFrame:

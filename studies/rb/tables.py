@@ -68,8 +68,15 @@ ARITHMETIC = Table.of("arithmetic", "quantity", "value err",
                       about="A number that needs no flow: of the paper, equations of state, weights, 36 "
                             "particles.")
 
+SPACE = Table.of("three_dimensions", "method variant start ra resolution",
+                 "particles ke ke_err nu nu_err across oblique converged mass_drift dt t_end",
+                 about="A run in a box of 2:2:1; that of points from rolls is a slice.",
+                 means={"start": ("rolls; crossed: others across, half as strong; squares: as strong", ""),
+                        "across": ("weaker over stronger of the longest waves of vy along x and along z", ""),
+                        "oblique": ("wave along a diagonal over the stronger of these", "")})
+
 ALL = (KINETIC, MEANS, HISTORY, FIELDS, PARTICLES, WALLS, SMOOTHED, ERRORS, SNAPSHOTS, FIELD_ERRORS,
-       ARITHMETIC)
+       ARITHMETIC, SPACE)
 
 STILL = 1e-6        # K of a grid whose onset lies a little higher: nothing flows, and rolls are of round-off
 #: Prandtl number nu/kappa, kappa = k/(rho C_V), that KHP95's eta = k means

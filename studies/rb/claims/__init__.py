@@ -12,7 +12,7 @@ from studies.kit.claim import Claim
 from studies.kit.stats import CannotTell, Measured
 from studies.kit.sweep import RESULTS
 from studies.kit.table import Tables, read
-from studies.rb.claims import arithmetic, energies, fields, freezing, grid, points, today
+from studies.rb.claims import arithmetic, energies, fields, freezing, grid, points, space, today
 from studies.rb.tables import particles
 
 
@@ -66,5 +66,5 @@ def looked(claim: Claim) -> Claim:
     return replace(claim, after=claim.after or "; ".join(seen))
 
 
-THEMES = (arithmetic, grid, energies, fields, freezing, points, today)
+THEMES = (arithmetic, grid, energies, fields, freezing, points, space, today)
 RB_CLAIMS = (*(looked(claim) for theme in THEMES for claim in theme.CLAIMS), *OPEN)
