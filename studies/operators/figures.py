@@ -67,4 +67,27 @@ def shear(rows: pd.DataFrame) -> Figure:
     return page
 
 
-FIGURES = Drawings(Drawing("growth", ("growth_means",), growth), Drawing("shear", ("shear_means",), shear))
+SHOWN = {"closure": "how far areas are from closed, $1/a$", "linear": "gradients of linear fields",
+         "divergence": "pressure gradient of a wave", "laplacian": "Laplacian of a wave"}
+SETS = ("lattice", "hexagonal", "jittered-0.1", "jittered-0.3", "random", "relaxed", "flowed")
+
+
+def makers(orders: pd.DataFrame) -> Figure:
+    """What areas of methods get wrong at the finest spacing, by kind of points."""
+    page, panels = figure(2, 2, width=5.0, height=3.6, sharex=True)
+    for axes, (quantity, label) in zip(panels.flat, SHOWN.items(), strict=True):
+        some = orders[orders["quantity"] == quantity]
+        for number, (maker, rows) in enumerate(some.groupby("maker")):
+            places = rows["points"].map(SETS.index) + 0.08*(number - 4.5)
+            style = {**look(number), "linestyle": "none"}
+            axes.plot(places, rows["finest"].clip(lower=FLOOR), label=maker, **style)
+        axes.axhspan(FLOOR/3, 1e-13, color="grey", alpha=0.15)
+        axes.set(yscale="log", ylabel=f"{label}\nrms error", ylim=(FLOOR/3, 3))
+        axes.set_xticks(range(len(SETS)), labels=SETS, rotation=30)
+    legend(page, panels[0, 0], 5)
+    page.suptitle("Areas of today's smooth particles, 64 spacings across a wave; grey: round-off")
+    return page
+
+
+FIGURES = Drawings(Drawing("growth", ("growth_means",), growth), Drawing("shear", ("shear_means",), shear),
+                   Drawing("makers", ("maker_orders",), makers))
