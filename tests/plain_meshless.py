@@ -58,8 +58,8 @@ def mfm(method, p, w, grad_w):
     slope = np.concatenate([everywhere(p, slope[..., :2], 1, True), everywhere(p, slope[..., 2:], 1)], axis=2)
     S = np.einsum("ij,ijab,ijb->ija", w, (B/p.rho[:, None, None])[:n, None] + B/p.rho[:, None, None], x)
     S /= 2*method.m
-    e = [energy(method.eos, rho, T) for rho, T in zip(p.rho, p.T)]
-    Z = p.rho*[sound_speed(method.eos, *at) for at in zip(p.rho, e)]
+    c = [sound_speed(method.eos, rho, energy(method.eos, rho, T)) for rho, T in zip(p.rho[:n], p.T)]
+    Z = p.rho*everywhere(p, np.array(c))
     left = limited(q[:n, None], q[None], q[:n, None] + np.einsum("iak,ija->ijk", slope[:n], x)/2)
     right = limited(q[None], q[:n, None], q[None] - np.einsum("jak,ija->ijk", slope, x)/2)
     size = np.linalg.norm(S, axis=2)

@@ -82,7 +82,7 @@ def test_a_scene_that_a_method_cannot_take_is_refused():
 
 @pytest.mark.parametrize(("wrong", "near"), [
     ("fixed-latice", "fixed-lattice, "), ("spam-monagan", "spam-monaghan, "),
-    ("SPH", "none of [0-9]+ such as grid, spam, fixed-lattice")])
+    ("FVM", "none of [0-9]+ such as grid, spam, fixed-lattice")])
 def test_an_unknown_name_gets_a_line_with_names_that_are_near(wrong, near):
     with pytest.raises(ValueError, match=rf"no method is called '{wrong}'; near to it are {near}[^\n]*$"):
         ready(LAYER, wrong)

@@ -224,3 +224,13 @@ def test_reconstructed_values_stay_near_both_and_are_the_mean_where_fields_are_l
         low, high = (own - d/2, mean + d/4) if own < other else (mean - d/4, own + d/2)
         assert limited(own, other, mean) == mean
         assert limited(own, other, 50.0) == high and limited(own, other, -50.0) == low
+
+
+def test_walls_at_rest_do_no_work_on_a_riemann_problem():
+    """One particle and its images at plates: what would heat it is P u*, and u* is that of the wall."""
+    spam = Spam(weight=WendlandC2.of(h=3.0), eos=IdealGas(), law=ConstEta(0.0, 0.0), box=(7.0, 8.0),
+                transport=Mfm, walls=periodic(7.0) + plates(8.0, HOT, COLD, Odd(), Copied()))
+    x, y = (q.ravel() for q in np.meshgrid(np.arange(7) - 3.0, np.arange(8) - 3.5))
+    state = np.array([x, y, 0*x, np.where(abs(y) > 3, 0.1*np.sign(y), 0.0), 1 + 0*x])
+    out = rates(spam, state)
+    assert abs((state[3]*out[3] + out[4]).sum()) < 1e-13

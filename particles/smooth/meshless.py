@@ -21,10 +21,11 @@ from particles.walls import mirrored
 from particles.weights import shape, value_and_slope
 
 #: numbers of one kind of particle, and how a mirror turns them: along x, along y; -: it reverses them, too
-REPRODUCING = {"p": "", "qx": "x", "qy": "y", "gx": "x", "gy": "y", "qxx": "xx", "qxy": "xy", "qyx": "xy",
-               "qyy": "yy"}
-MESHLESS = {"bxx": "xx", "bxy": "xy", "byy": "yy", "u_x": "-x", "u_y": "-y", "v_x": "-x", "v_y": "-y",
-            "P_x": "x", "P_y": "y"}
+#: images have the speed of sound of their particles, not of their T: what touches a wall at rest rests
+REPRODUCING = {"c": "", "p": "", "qx": "x", "qy": "y", "gx": "x", "gy": "y", "qxx": "xx", "qxy": "xy",
+               "qyx": "xy", "qyy": "yy"}
+MESHLESS = {"c": "", "bxx": "xx", "bxy": "xy", "byy": "yy", "u_x": "-x", "u_y": "-y", "v_x": "-x",
+            "v_y": "-y", "P_x": "x", "P_y": "y"}
 
 
 class Given(NamedTuple):
@@ -170,17 +171,17 @@ class OverFaces(Corrected):
     def allocate(self, points: int) -> None:
         super().allocate(points)
         own = [(name, "f8") for name in self.turns]
-        self.records = np.zeros(points, [*Point.descr, ("c", "f8"), *own])
+        self.records = np.zeros(points, [*Point.descr, *own])
         self.more = np.empty((self.around.rows, self.columns))
 
     def exchange(self, less: np.ndarray) -> tuple[Any, np.ndarray]:
         _, records = super().exchange(less)     # which refuses neighbours in a line
         around, method = self.around, self.method
         given = method.weight, method.m
-        self.threads(sound, len(around.x), method.eos, around.rho, around.T, records)
+        self.threads(sound, around.rows, method.eos, around.rho, around.T, records)
         self.threads(sweep, around.rows, self.sums(*given), records, around.pairs, self.more)
         self.finish(given)
-        numbers, first_own = records.view("f8").reshape(len(records), -1), len(FIELDS.split()) + 1
+        numbers, first_own = records.view("f8").reshape(len(records), -1), len(FIELDS.split())
         for wall, parent, first, last in around.blocks:
             signs = np.array([turned(how, mirrored(wall)) for how in self.turns.values()])
             numbers[first:last, first_own:] = signs*numbers[parent, first_own:]

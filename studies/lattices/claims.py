@@ -220,7 +220,7 @@ STRESS = (
                     "people use today, Ra 10 000: foretold over measured, farthest, 25 rows on"),
     Claim(id="own-loss-corrected", source="Bonet & Lok 1999", at_most=0.1,
           after=SHORT, because="a tenth of friction: what a change of its discretisation makes",
-          value=largest("laws", "abs(C)", "q == 1", variant=MAKERS[2:]),
+          value=largest("laws", "abs(C)", "q == 1", err="C_err", variant=MAKERS[2:]),
           statement="areas with corrected gradients bear no stress beside friction: largest excess over it"),
     Claim(id="own-loss-cancels", after=COMPARED, source="KHP95 Sec. VI", at_least=0.05,
           value=one("foretold", "measured - bulk", err="measured_err", variant="less-static-50",
