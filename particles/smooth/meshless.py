@@ -1,13 +1,13 @@
 """Smooth particles whose pairs share one area and one pressure, as used today.
 
-Particle i feels -P* S_ij and bears the work of P* on it:
+Particle i feels -P* S_ij:
 
     CRKSPH   S_ij = V_i V_j (grad_i W^R_ij - grad_j W^R_ji), P* = (P_i + P_j)/2    [Frontiere et al. 2017]
-    MFM      S_ij = W_ij (V_i B_i + V_j B_j) x_ij, B_i = (sum_j W_ij x_ij x_ij)^-1, x_ij = x_j - x_i, P* of a
-             Riemann problem between them    [Lanson & Vila 2008; Hopkins 2015]
+    MFM      S_ij = W_ij (V_i B_i + V_j B_j) x_ij, B_i = (sum_j W_ij x_ij x_ij)^-1, x_ij = x_j - x_i; P*
+             of a Riemann problem    [Lanson & Vila 2008; Hopkins 2015]
 
-Densities are summed, V = m/rho. CRKSPH's smoothed density is left out, and its artificial viscosity: friction
-and heat go along pairs, as in `corrected`.
+Densities are summed, V = m/rho; friction and heat are those of `corrected`. CRKSPH's smoothed density and
+artificial viscosity are left out.
 """
 from typing import Any, ClassVar, NamedTuple
 
@@ -29,7 +29,6 @@ MESHLESS = {"c": "", "bxx": "xx", "bxy": "xy", "byy": "yy", "u_x": "-x", "u_y": 
 
 
 class Given(NamedTuple):
-    """What W itself needs in a pair loop."""
     weight: Any
     m: float
 
@@ -167,11 +166,11 @@ class OverFaces(Corrected):
     columns: ClassVar[int]
     kind: ClassVar[Any]
     turns: ClassVar[dict[str, str]]
+    finish: Any     # fields of rows from their sums
 
     def allocate(self, points: int) -> None:
         super().allocate(points)
-        own = [(name, "f8") for name in self.turns]
-        self.records = np.zeros(points, [*Point.descr, *own])
+        self.records = np.zeros(points, [*Point.descr, *((name, "f8") for name in self.turns)])
         self.more = np.empty((self.around.rows, self.columns))
 
     def exchange(self, less: np.ndarray) -> tuple[Any, np.ndarray]:
@@ -186,10 +185,6 @@ class OverFaces(Corrected):
             signs = np.array([turned(how, mirrored(wall)) for how in self.turns.values()])
             numbers[first:last, first_own:] = signs*numbers[parent, first_own:]
         return self.kind(*given), records
-
-    def finish(self, given: tuple[Any, float]) -> None:
-        """The fields of rows from their sums."""
-        raise NotImplementedError
 
 
 def turned(how: str, axis: int) -> float:
