@@ -85,7 +85,7 @@ def makers(orders: pd.DataFrame) -> Figure:
         axes.set(yscale="log", ylabel=f"{label}\nrms error", ylim=(FLOOR/3, 3))
         axes.set_xticks(range(len(SETS)), labels=SETS, rotation=30)
     legend(page, panels[0, 0], 5)
-    page.suptitle("Areas of today's smooth particles, 64 spacings across a wave; grey: round-off")
+    page.suptitle("Areas of today's smooth particles, 48 spacings across a wave; grey: round-off")
     return page
 
 

@@ -4,7 +4,7 @@ from typing import Any
 from studies.kit.ask import largest, least, one
 from studies.kit.claim import Claim
 
-SECOND = "second order, as the paper has it; seeds and longer errors change slopes over 16 to 64 cells by 0.4"
+SECOND = "second order, as the paper has it; seeds and longer errors change slopes over 16 to 48 cells by 0.4"
 EXACT = "round-off of sums of 30 terms, of matrices with condition numbers of 10"
 CRKSPH, MFM = "Frontiere, Raskin & Owen 2017", "Hopkins 2015"
 
@@ -19,7 +19,7 @@ def second(name: str, maker: str, source: str, points: str) -> Claim:
     return Claim(id=f"own-makers-{name}-{points}", source=source, expect=2, within=0.4, because=SECOND,
                  value=one("maker_orders", "order", quantity="divergence", maker=maker, points=points),
                  statement=f"pressures of {maker} push to second order, points {points}: order, waves of "
-                           "16 to 64 spacings")
+                           "16 to 48 spacings")
 
 
 MAKERS = (
