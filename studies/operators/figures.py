@@ -79,10 +79,11 @@ def makers(orders: pd.DataFrame) -> Figure:
         some = orders[orders["quantity"] == quantity]
         for number, (maker, rows) in enumerate(some.groupby("maker")):
             places = rows["points"].map(SETS.index) + 0.08*(number - 4.5)
-            style = {**look(number), "linestyle": "none"}
+            style = {**look(number), "linestyle": "none", "fillstyle": "none" if number > 7 else "full"}
             axes.plot(places, rows["finest"].clip(lower=FLOOR), label=maker, **style)
         axes.axhspan(FLOOR/3, 1e-13, color="grey", alpha=0.15)
-        axes.set(yscale="log", ylabel=f"{label}\nrms error", ylim=(FLOOR/3, 3))
+        floor = FLOOR/3 if quantity in ("closure", "linear") else 5e-4
+        axes.set(yscale="log", ylabel=f"{label}\nrms error", ylim=(floor, 6))
         axes.set_xticks(range(len(SETS)), labels=SETS, rotation=30)
     legend(page, panels[0, 0], 5)
     page.suptitle("Areas of today's smooth particles, 48 spacings across a wave; grey: round-off")
