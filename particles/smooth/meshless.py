@@ -49,10 +49,10 @@ class Differences(Given):
 
 
 class Meshless(Given):
-    """MFM: states reconstructed at the middle of a pair, limited pair by pair, and the acoustic solver.
+    """MFM: states at the middle of a pair, limited, and the acoustic solver    [Hopkins 2015; Toro 2009, 9.3]
 
-    [Hopkins 2015, Sec. 2, App. B; Toro 2009, Sec. 9.3]. His limiter by extremes over all neighbours
-    is left out, as no flow here has shocks, and his rule that signs do not change, as those of velocities do.
+    Of his App. B the limiter by extremes of all neighbours is left out, as no flow here has shocks, and the
+    rule that signs do not change, as those of velocities do.
     """
 
 
@@ -63,7 +63,7 @@ def area(term, a, b, x, y, ab):
 
 @generic
 def pressed(term, a, b, x, y, Sx, Sy):
-    """(P*, heating of a) by pressure over S/2m."""
+    """P*, and how it heats a over S/2m."""
 
 
 @pair_term(Moments, 12)
@@ -133,10 +133,7 @@ def middle(a, b, x, y):
 
 @formula
 def limited(own, other, value):
-    """A reconstructed value: beyond the own by half of the difference at most, beyond the mean by a quarter.
-
-    [Hopkins 2015, App. B, psi_1 = 1/2, psi_2 = 1/4]
-    """
+    """Within half of the difference of the own value, a quarter of the mean    [App. B, psi_1, psi_2]"""
     mean, d = 0.5*(own + other), abs(own - other)
     if own < other:
         return max(own - 0.5*d, min(mean + 0.25*d, value))
