@@ -7,9 +7,12 @@ by one.
 from typing import Any, NamedTuple
 
 import numpy as np
+from plain_meshless import FACES, nearing
 
 from continuum.fluid import conductivity, energy, pressure, temperature, viscosity
 from particles.smooth.corrected import AllCorrected, Corrected, Reversed, Symmetrised
+from particles.smooth.meshless import Crksph, Mfm
+from particles.smooth.riemann import LowDissipationSums
 from particles.smooth.spam import Spam
 from particles.smooth.sums import Direct, Nested
 from particles.terms import ArithmeticGradients
@@ -168,7 +171,7 @@ def rates(method: Spam, state: np.ndarray) -> Rates:
     p, n = points(method, state), state.shape[1]
     _, grad_w = pairs(method, p.x, p.rows)
     grad_v, grad_T = (corrected_gradients if method.transport in AREAS else gradients)(method, p, grad_w)
-    exchange = {Nested: nested, Direct: direct}.get(method.transport, corrected)
+    exchange = {Nested: nested, Direct: direct, LowDissipationSums: direct}.get(method.transport, corrected)
     a, heat = exchange(method, p, grad_w[:n], grad_v, grad_T)
     rho = p.rho[:n]
     a[:, 1] -= method.g*(1 - method.static.fraction*method.static.rho0/rho)
@@ -212,14 +215,17 @@ def direct(method: Spam, p: Points, grad_w, grad_v, grad_T):
     r2 = (d**2).sum(axis=2)
     F = np.einsum("ija,ija->ij", d, grad_w)/np.where(r2 > 0, r2, 1)/p.rho[:n, None]/p.rho[None]
     dv, dT = p.v[:n, None] - p.v[None], p.T[:n, None] - p.T[None]
-    force = -(P[:n, None] + P[None])[:, :, None]*grad_w + ((eta[:n, None] + eta[None])*F)[:, :, None]*dv
+    pressed = P[:n, None] + P[None]
+    if method.transport is LowDissipationSums:
+        pressed = (p.P[:n, None] + p.P + nearing(method, p, dv, d))/p.rho[:n, None]/p.rho
+    force = -pressed[:, :, None]*grad_w + ((eta[:n, None] + eta[None])*F)[:, :, None]*dv
     heat = -0.5*np.einsum("ija,ija->ij", force, dv) + (k[:n, None] + k[None])*F*dT
     return method.m*force.sum(axis=1), method.m*heat.sum(axis=1)
 
 
 #: weights of B_i grad w and B_j grad w in A and C, and whether friction is corrected
 AREAS = {Corrected: (1, 0, False), Reversed: (0, 1, False), Symmetrised: (0.5, 0.5, False),
-         AllCorrected: (1, 0, True)}
+         AllCorrected: (1, 0, True), Crksph: (1, 0, False), Mfm: (1, 0, False)}
 
 
 def inverse(method: Spam, p: Points, grad_w):
@@ -253,11 +259,15 @@ def corrected(method: Spam, p: Points, grad_w, grad_v, grad_T):
     f = 1/p.rho[:n, None]/p.rho[None]
     own, other = np.einsum("ij,iab,ijb->ija", f, B[:n], grad_w), np.einsum("ij,jab,ijb->ija", f, B, grad_w)
     A, C = a*own + c*other, c*own + a*other
+    pressed = p.P[:n, None, None]*A + p.P[None, :, None]*C
+    work = -p.P[:n, None]*(A*dv).sum(axis=2)
+    if method.transport in FACES:
+        A, pressed, work = FACES[method.transport](method, p, pairs(method, p.x, n)[0], grad_w)
+        C = A
     r2, halves = (d**2).sum(axis=2), np.trace(B, axis1=1, axis2=2)/2
     F = f*np.einsum("ija,ija->ij", d, grad_w)/np.where(r2 > 0, r2, 1)
     F *= (halves[:n, None] + halves[None])/2 if everywhere else 1
     rub = ((eta[:n, None] + eta[None])*F)[:, :, None]*dv
     rub += np.einsum("ija,ijab->ijb", (A + C)/2, tau[:n, None] + tau[None])
-    force = rub - p.P[:n, None, None]*A - p.P[None, :, None]*C
-    work = 0.5*(rub*dv).sum(axis=2) - p.P[:n, None]*(A*dv).sum(axis=2)
-    return method.m*force.sum(axis=1), method.m*(work + (k[:n, None] + k[None])*F*dT).sum(axis=1)
+    work = work + 0.5*(rub*dv).sum(axis=2)
+    return method.m*(rub - pressed).sum(axis=1), method.m*(work + (k[:n, None] + k[None])*F*dT).sum(axis=1)

@@ -9,12 +9,14 @@ from continuum.fluid import ConstEta, IdealGas
 from continuum.scene import RayleighBenard
 from particles.integral.dih import Dih, NestedFluxes
 from particles.integral.edge_makers import MAKERS, plain, printed, renormalised
+from particles.integral.edges import Edges
 from particles.integral.interpolants import Exponential, Gaussian, W
-from particles.integral.points import jittered, lattice
+from particles.integral.points import jittered, lattice, pairs
 from particles.limits import jacobian, limit_of
 from particles.run import Plan, run
+from particles.smooth.corrected import Symmetrised
 from particles.threads import Threads
-from particles.weights import Lucy, WendlandC2
+from particles.weights import Lucy, WendlandC2, value_and_slope
 from studies.build.fixed import SCHEMES, fluid
 from studies.operators.equations import (
     PRINTED,
@@ -28,6 +30,7 @@ from studies.operators.equations import (
     rates,
     transported,
 )
+from studies.operators.makers import hexagonal, of_edges, of_particles
 from studies.operators.scheme import LayerGrowth, euler_limit, sound, viscosities
 from studies.operators.weights import (
     around,
@@ -192,3 +195,36 @@ def test_eigenvalues_and_time_steps_give_one_growth():
     steps = ceil(1/rate/(0.5*limit_of(method, state)))
     last = run(method, state + mode, Plan(dt=1/rate/steps, steps=steps)).state
     np.testing.assert_allclose(last - state, np.e*mode, rtol=0, atol=1e-3*np.abs(mode).max())
+
+
+# --- the map of makers ----------------------------------------------------------------------------
+
+
+def test_particles_are_asked_as_edges_are():
+    """Areas (B_i + B_j)/2 grad w by double sums, as edges, against particles that run with them."""
+    points, weight = jittered((9, 9), 0.2, 1), WendlandC2.of(h=3.0)
+    i, j, apart, r = pairs(points, weight.h)
+    w, slope = np.array([value_and_slope(weight, q) for q in r]).T
+    W, (grad, x) = np.zeros((81, 81)), np.zeros((2, 81, 81, 2))
+    W[i, j] = W[j, i] = w
+    grad[i, j], grad[j, i] = -slope[:, None]*apart, slope[:, None]*apart
+    V = 1/(W.sum(axis=1) + value_and_slope(weight, 0.0)[0])
+    x[i, j], x[j, i] = apart, -apart
+    B = np.linalg.inv(np.einsum("j,ija,ijb->iab", V, x, grad))
+    S = np.einsum("i,j,ijab,ijb->ija", V, V, B[:, None] + B, grad)
+    edges = Edges(i=i, j=j, S=S[i, j], k=-2*V[i]*V[j]*slope, apart=apart, V=V)
+    ours, theirs = of_particles(points, weight, Symmetrised), of_edges(points, weight, lambda *_: edges)
+    order, same = np.lexsort(ours.x.round(9)), np.lexsort(theirs.x.round(9))
+
+    def wave(x):
+        return np.sin(2*np.pi*x[0]/9)*np.cos(2*np.pi*x[1]/9)
+    for asked in ("momentum", "gradient", "laplacian"):
+        fast, slow = (getattr(at, asked)(wave) for at in (ours, theirs))
+        np.testing.assert_allclose(fast[..., order], slow[..., same], atol=1e-11)
+    np.testing.assert_allclose(ours.linear[..., order], theirs.linear[..., same], atol=1e-12)
+
+
+def test_a_triangular_lattice_has_six_neighbours_at_one_distance():
+    points = hexagonal((9, 9), 0.0, 1)
+    r = pairs(points, 1.5)[3]
+    assert len(r) == 3*points.n and np.ptp(r) < 1e-12 and points.a == pytest.approx(1.0)

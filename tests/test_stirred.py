@@ -1,13 +1,19 @@
 """The stress of sheared particles: flows that a force holds, the law of it, K that it foretells."""
+from dataclasses import replace
+
 import numpy as np
 import pandas as pd
 import pytest
+from crowd import rates
 
 from continuum.gas.fields import placed
 from continuum.linear import PlateKind, critical_ra
 from continuum.scene import RayleighBenard
-from studies.build.spam import VARIANTS, at_rest
+from studies.build.scenes import Tile
+from studies.build.spam import TODAY, VARIANTS, at_rest, scattered
 from studies.lattices.loss import Law, gain, laws, projected, roll, strained, thickness
+from studies.lattices.makers import MAKERS, StirredMaker, law
+from studies.lattices.makers import thickness as of_layer
 from studies.lattices.stirred import (
     SHEARED,
     STIRRED,
@@ -95,3 +101,25 @@ def test_rate_of_strain_of_a_plain_shear():
     rate, P, eta, _, _ = strained(fields, 2.0)
     np.testing.assert_allclose(rate, 0.3, rtol=1e-12)
     assert (P == 1).all() and eta == pytest.approx(fields.scene.nu/2)
+
+
+@pytest.mark.parametrize("name", MAKERS)
+def test_makers_are_pushed_by_the_force_alone(name):
+    case = StirredMaker(variant=TODAY[name], rows=9)
+    state = at_rest(scattered(Tile(width=9.0, L=9.0, law=case.method.law), 1), 1.0)
+    state[2:4] = 0.2*case.method.v(state)
+    free = replace(case.method, transport=TODAY[name].transport)
+    pushed = rates(case.method, state) - rates(free, state)
+    force = case.method.friction*case.method.k*case.method.U*case.method.v(state)
+    np.testing.assert_allclose(pushed[2:4], force, atol=1e-14)
+
+
+def test_laws_of_makers_are_a_power_or_a_viscosity_that_may_be_less():
+    J = np.array([0.01, 0.02, 0.04])
+    some = pd.DataFrame({"friction": J, "P": 1.0, "excess": projected(0.3)*0.01*J**0.3, "excess_err": 1e-5})
+    found = law(some)
+    assert [found["C"], found["q"]] == pytest.approx([0.01, 0.3])
+    found = law(some.assign(excess=-0.03*J))
+    assert [found["C"], found["q"]] == pytest.approx([-0.03, 1.0])
+    layer = pd.DataFrame({"thick": [1.0, 1.1, 1.2], "ke": [1.0, 1/1.1, 1/1.2]})
+    assert of_layer(layer, found) == pytest.approx((0.97, 1/0.97), rel=1e-3)

@@ -13,6 +13,8 @@ from continuum.scene import RayleighBenard, Torus
 from particles.limits import step_limit
 from particles.observe import PlateHeat, field_kinetic, heat_flow, particle_kinetic
 from particles.smooth.corrected import AllCorrected, Corrected, Reversed, Symmetrised
+from particles.smooth.meshless import Crksph, Mfm
+from particles.smooth.riemann import LowDissipationSums
 from particles.smooth.spam import LessStatic, Spam
 from particles.smooth.sums import Direct, Nested
 from particles.terms import ArithmeticGradients, Gradients
@@ -134,6 +136,9 @@ TODAY = {v.name: v._replace(weight=WendlandC2, walls=images_odd) for v in (
     Variant("bonet-lok", transport=Symmetrised),
     Variant("corrected", transport=AllCorrected),
     Variant("corrected-half-step", transport=AllCorrected, step=OF_LIMIT/2),
+    Variant("CRKSPH", transport=Crksph),
+    Variant("MFM", transport=Mfm),
+    Variant("riemann", transport=LowDissipationSums),
 )}
 #: what a step that vanishes would leave of a frozen fluid
 STEPS = {name: PRINTED._replace(name=name, step=OF_LIMIT/part)

@@ -13,6 +13,7 @@ from studies.lattices.debye import Debye
 from studies.lattices.frozen_flow import Fastest, Freezing
 from studies.lattices.loss import TABLES as LOSS
 from studies.lattices.loss import Thickened
+from studies.lattices.makers import cases as makers
 from studies.lattices.stirred import PLATES, SHEARED, Stirred
 
 WEIGHTS: tuple[type[Weight], ...] = (Lucy, Monaghan, WendlandC2)
@@ -60,7 +61,7 @@ def paper() -> Iterator[Case]:
     yield from onsets()
     yield from freezing()
     yield from (*speeds(), *spectra())
-    yield from (*stirred(), *aligned(), *ranges(), *(Thickened(ra=ra) for ra in RAYLEIGH))
+    yield from (*stirred(), *aligned(), *ranges(), *(Thickened(ra=ra) for ra in RAYLEIGH), *makers())
 
 
 def growth() -> Iterator[Case]:

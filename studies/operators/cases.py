@@ -16,6 +16,8 @@ from studies.kit.case import Case
 from studies.operators import scheme
 from studies.operators.entropy import WAYS, Entropy
 from studies.operators.equations import Arithmetic, EquationErrors, of_dilation, of_rotation, of_volumes
+from studies.operators.makers import MAKERS as TODAY
+from studies.operators.makers import SETS, MakerErrors
 from studies.operators.transport import BETWEEN, Decay, Drive, ShearFlow, of_edges
 from studies.operators.weights import Continuum, ExponentialWave, LatticeSums, of_weights
 
@@ -48,7 +50,7 @@ MANY = tuple(range(1, 13))      # sets of points between rows of points: their e
 def cases(size: str) -> list[Case]:
     """`quick` has fewer sizes, seeds and kinds of points."""
     quick = size == "quick"
-    parts = (weights, equations, points, waves, shear, layers, entropy)
+    parts = (weights, equations, points, waves, shear, layers, entropy, makers)
     return [case for part in parts for case in part(quick)]
 
 
@@ -130,3 +132,11 @@ def entropy(quick: bool) -> Iterator[Case]:
         for n, seed in product(sizes, seeds):
             yield Entropy(way=way, make=make, disorder=DISORDERS[kind], counts=(n, n), h=2.5, state=state,
                           seed=seed)
+
+
+def makers(quick: bool) -> Iterator[Case]:
+    """Areas of today's methods on all sets of points."""
+    cells, seeds = ((8, 12, 16), (1,)) if quick else ((16, 32, 48), SEEDS[:2])
+    for (name, (make, kind)), (points, disorder), n in product(TODAY.items(), SETS.items(), cells):
+        for seed in seeds[:1] if points in ("lattice", "hexagonal", "relaxed") else seeds:
+            yield MakerErrors(maker=name, make=make, kind=kind, disorder=disorder, cells=n, seed=seed)

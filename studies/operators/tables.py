@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 
 from studies.kit.fits import power_law
-from studies.kit.stats import Measured, seed_means, with_errors
+from studies.kit.stats import Measured, combine, seed_means, with_errors
 from studies.kit.table import Row, Rows, Table, Tables
 
 CONTINUUM = Table.of("continuum", "weight d quantity", "value value_err predicted",
@@ -76,15 +76,28 @@ ENTROPY = Table.of("entropy", "transport maker points d state cells seed", "tota
                           "least": ("production over the sum of its sizes on edges, least of the states", ""),
                           "negative": ("share of the edges that destroy entropy", "")})
 
+MAKERS = Table.of("makers", "maker points cells seed",
+                  "closure linear deviator divergence gradient laplacian",
+                  about="Areas of one method on one set of points, range 3 a; waves as long as the box.",
+                  means={"closure": ("rms of sum_j S_ij/V_i", "1/a"),
+                         "linear": ("rms error of the gradients of linear fields", ""),
+                         "deviator": ("rms deviator of those gradients", ""),
+                         "divergence": ("rms error of a wave of pressure over its rms slope", ""),
+                         "laplacian": ("the same of its Laplacian, by conduction", "")})
+MAKER_ORDERS = Table.of("maker_orders", "maker points quantity", "order order_err finest finest_err",
+                        about="How these errors fall with the spacing; their mean at the finest.",
+                        means={"finest": ("mean over seeds at the finest spacing", "")})
+
 ALL = (CONTINUUM, LATTICE, EXPONENTIAL, NUMBERS, EQUATIONS, ORDERS, FRICTION, ONE_KERNEL, GROWTH,
        GROWTH_MEANS, EULER, NESTED_GROWTH, WAVES, COEFFICIENTS, TRANSPORT_ORDERS, SHEAR, SHEAR_MEANS,
-       SHEAR_ORDERS, ENTROPY)
+       SHEAR_ORDERS, ENTROPY, MAKERS, MAKER_ORDERS)
 
 # --- what follows from them ---------------------------------------------------------------------------------
 
 LEAST = 3           # sizes of an order
 SHORTEST = 16       # spacings of the waves that make an order: (h/lambda)^4 takes 2 % of the error there
 NORMS = ["rms", "largest"]
+ROUND_OFF = 1e-10   # of sums
 NOTHING = Measured(np.nan, np.nan)
 
 
@@ -173,7 +186,21 @@ def shear_orders(rows: pd.DataFrame) -> Iterator[Row]:
             yield key | with_errors(order=power_law(1/group["rows"], group["error"]).slope)
 
 
+ERRORS = ["closure", "linear", "deviator", "divergence", "gradient", "laplacian"]
+
+
+def maker_orders(rows: pd.DataFrame) -> Iterator[Row]:
+    """Over the cells, all runs in one fit; round-off has no order."""
+    errors = rows.melt(["maker", "points", "cells"], ERRORS, "quantity", "error")
+    for key, group in groups(errors, MAKER_ORDERS, "cells"):
+        finest = combine([(error, 0.0) for error in group["error"][group["cells"] == group["cells"].max()]])
+        told = group["cells"].nunique() >= LEAST and (group["error"] > ROUND_OFF).all()
+        order = power_law(1/group["cells"], group["error"]).slope if told else NOTHING
+        yield key | with_errors(order=order, finest=finest)
+
+
 #: table that is derived -> the table that it follows from, and how
 DERIVED = {"orders": ("equations", orders), "growth_means": ("growth", growth_means),
            "coefficients": ("waves", coefficients), "transport_orders": ("waves", transport_orders),
-           "shear_means": ("shear", shear_means), "shear_orders": ("shear", shear_orders)}
+           "shear_means": ("shear", shear_means), "shear_orders": ("shear", shear_orders),
+           "maker_orders": ("makers", maker_orders)}

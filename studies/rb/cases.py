@@ -21,7 +21,7 @@ from studies.rb.runs import grid as truth
 from studies.rb.runs.arithmetic import SUBJECTS, WithoutFlow
 from studies.rb.runs.grid import BoussinesqSteady, CompressibleApproach, CompressibleSteady, PypdeSteady
 from studies.rb.runs.space import InSpace
-from studies.rb.runs.spam import SpamRun
+from studies.rb.runs.spam import MakerRun, SpamRun
 
 LAYER: dict[str, Any] = {"aspect": 2.0, "sides": Periodic()}     # Fig. 5
 BOX: dict[str, Any] = {"aspect": 1.0, "sides": Walls()}          # Fig. 6
@@ -210,6 +210,14 @@ def today() -> Iterator[Case]:
             yield from spam(1e4, rows, variant=TODAY[name], mean_from=60.0)
 
 
+def makers() -> Iterator[Case]:
+    """Today's other areas between particles; the first sizes first."""
+    for rows, name in product((25, 35, 50, 70), ("CRKSPH", "MFM", "riemann")):
+        if rows < 50 or name != "riemann":
+            for run in spam(1e4, rows, variant=TODAY[name], mean_from=60.0):
+                yield MakerRun(**vars(run))
+
+
 def fine() -> Iterator[Case]:
     """Every variant at two sizes (of pressure at two Ra), finer particles, higher Ra, long grids."""
     elsewhere = {"printed", "printed-half-step", "printed-from-flow", "wendland-c2-walls-odd"}
@@ -226,6 +234,7 @@ def fine() -> Iterator[Case]:
     yield from joint()
     yield from today()
     yield from in_space()
+    yield from makers()
     for ra, rows in product((1500.0, 2500.0, 20000.0), (25, 35)):
         yield from spam(ra, rows)
     for ra in (2500.0, 10000.0):

@@ -15,7 +15,7 @@ from studies.rb.tables import POINT, SCENE, STILL
 
 Row = dict[Any, Any]
 GRIDS = ("compressible", "boussinesq", "pypde-compressible")
-CORRECTED = ("sumB", "corrected")       # smooth particles that may have a limit
+CORRECTED = ("sumB", "corrected", "CRKSPH", "MFM")      # smooth particles that may have a limit
 SERIES = [name for name in POINT if name != "resolution"]
 ENERGIES = ["ke", "ke_field", "ke_mean", "nu"]
 HALF = "-half-step"
@@ -32,7 +32,8 @@ def derive(tables: Tables) -> Rows:
     """All derived rows of the study."""
     if "kinetic_energy" not in tables:
         return {}
-    runs = finite(tables["kinetic_energy"]).dropna(subset="ke")
+    every = pd.concat([tables[name] for name in ("kinetic_energy", "makers") if name in tables])
+    runs = finite(every).dropna(subset="ke")
     limits = list(extrapolated(runs))
     all_runs = pd.concat([runs, pd.DataFrame(limits)], ignore_index=True)
     means = pd.DataFrame(over_seeds(all_runs))

@@ -23,6 +23,9 @@ RUNS = (f"{AT} particles seed {ENERGIES} rolls free_fall mass_drift converged dt
 KINETIC = Table("kinetic_energy", key=RUN, columns=RUNS.split(),
                 about="A run of one solver: means over its late part. Boussinesq rows are in free-fall "
                       "units.")
+MAKERS = Table("makers", key=RUN, columns=RUNS.split(),
+               about="A run of smooth particles with areas as CRKSPH and MFM make them, and with a limited "
+                     "Riemann problem.")
 MEANS = Table.of("means", AT, f"particles seeds mixed {ENERGIES} rolls",
                  about="Means over the seeds that settled in the commonest number of rolls. An error is the "
                        "larger of those within runs and between seeds, and twice what half of the step "
@@ -75,8 +78,8 @@ SPACE = Table.of("three_dimensions", "method variant start ra resolution",
                         "across": ("weaker over stronger of the longest waves of vy along x and along z", ""),
                         "oblique": ("wave along a diagonal over the stronger of these", "")})
 
-ALL = (KINETIC, MEANS, HISTORY, FIELDS, PARTICLES, WALLS, SMOOTHED, ERRORS, SNAPSHOTS, FIELD_ERRORS,
-       ARITHMETIC, SPACE)
+ALL = (KINETIC, MAKERS, MEANS, HISTORY, FIELDS, PARTICLES, WALLS, SMOOTHED, ERRORS, SNAPSHOTS,
+       FIELD_ERRORS, ARITHMETIC, SPACE)
 
 STILL = 1e-6        # K of a grid whose onset lies a little higher: nothing flows, and rolls are of round-off
 #: Prandtl number nu/kappa, kappa = k/(rho C_V), that KHP95's eta = k means

@@ -9,6 +9,7 @@ from studies.kit.ask import Value, largest, largest_of, largest_per, least, of, 
 from studies.kit.claim import Claim
 from studies.kit.stats import Measured
 from studies.kit.table import Tables
+from studies.operators.claims.makers import MAKERS
 from studies.operators.claims.scheme import SCHEME, number, second_order
 
 GIVEN = ("Exponential", "Gaussian")      # whose integrals are known in closed form and not made to be 1
@@ -163,4 +164,4 @@ DISCRETE = (
               statement="with e_ij from j to i, -sum_j W e_ij A_j is grad A, as Eq. 1 has it: projection on "
                         "the exact gradient of a wave"),
 )
-CLAIMS = (*INTERPOLANT, *KERNELS, *DISCRETE, *SCHEME)
+CLAIMS = (*INTERPOLANT, *KERNELS, *DISCRETE, *SCHEME, *MAKERS)

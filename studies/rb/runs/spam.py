@@ -1,5 +1,6 @@
 """One run of smooth particles in the layer or the box, as a case    [KHP95, Secs IV-VI]"""
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, ClassVar
 
 import numpy as np
@@ -12,6 +13,7 @@ from studies.build.measure import at_end, flowing, turns
 from studies.build.names import HALVES
 from studies.build.setting import Ready
 from studies.build.spam import PRINTED, Variant, step
+from studies.kit.case import Outcome, Report
 from studies.kit.stats import mean, settled
 from studies.kit.table import Rows
 from studies.rb.runs import table_rows
@@ -96,3 +98,11 @@ class SpamRun(AveragedRun):
         kinds = np.select([number < sums.n, number < around.rows], ["fluid", "fixed"], "image")
         return table_rows(self.point, number=number, kind=kinds, x=around.x/L, y=around.y/L, vx=around.vx,
                           vy=around.vy, T=around.T)
+
+
+class MakerRun(SpamRun):
+    """The same in a table of its own: `kinetic_energy` is as long as a table may be."""
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        rows = dict(super().run(report, folder).rows)
+        return Outcome({"makers": rows.pop("kinetic_energy"), **rows})
