@@ -1,5 +1,6 @@
 """Which methods meet which case, by size: a method is a line, a case is a line."""
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 from itertools import product
 from typing import Any
 
@@ -8,8 +9,8 @@ from particles.run import STUDIES
 from particles.weights import Lucy, Monaghan
 from studies.build import variant, variants
 from studies.build.spam import PRINTED
-from studies.hardcases import high_ra, printed, robust, tubes
-from studies.hardcases.extremes import LAYERS, ROWS, SITUATIONS, Smooth, Tiled, WithoutPlates
+from studies.hardcases import high_ra, printed, robust, trials, tubes
+from studies.hardcases.extremes import LAYERS, ROWS, SITUATIONS, Smooth, Tiled, WithoutPlates, falls
 from studies.hardcases.high_ra import FineGrid, HighRa, Rippled
 from studies.hardcases.printed import Interface, Square
 from studies.hardcases.robust import STABLE
@@ -43,7 +44,7 @@ def smooth(*names: str) -> dict[str, Any]:
 
 
 #: the map: name -> what has ready(scene)
-SPAM = smooth("spam", "spam-wendland-c2")
+SPAM = smooth("spam", "spam-wendland-c2", "spam-corrected")
 POINTS = variants(LATTICE, NESTED, JITTERED, *STABLE)
 MOVE = variants("moving-literal", "moving-constant-mass", MOVING)
 TRIANGLES = variants(CARRIED)
@@ -73,6 +74,8 @@ TAKES: dict[str, dict[str, Any]] = {
 PROBED = dict.fromkeys(PROBES, USUAL | {GRID: TILED})
 PROBED["alternating densities"] = variants(LATTICE, JITTERED, *STABLE, CARRIED, MOVING)
 
+#: layers that are tried with 32 rows, too
+TALL = ("Ra 1e6", "Ra 1e7")
 LENGTHS = (24, 36, 48, 72, 96, 144, 192)
 MORE_SEEDS = 16         # of the longest viscous tube of smooth particles, whose ringing is near its limit
 #: scale, k a, number of seeds
@@ -112,6 +115,7 @@ def paper() -> Iterator[Case]:
     yield from highest()
     yield from hard()
     yield from robust.cases()
+    yield from trials.cases()
 
 
 def smooth_tubes(lengths: Sequence[int], etas: Sequence[float], seeds: Iterable[int]) -> Iterator[Case]:
@@ -148,6 +152,10 @@ def hard() -> Iterator[Case]:
             yield HardOnGrid(case=case, scene=scene, time=time, rows=rows)
         for method, chosen in TAKES.get(case, USUAL).items():
             yield Hard(case=case, method=method, variant=chosen, scene=scene, time=time)
+    for case in TALL:
+        scene = replace(SITUATIONS[case].scene, L=2.0*ROWS)
+        for method, chosen in TAKES["Ra 1e7"].items():
+            yield Hard(case=case, method=method, variant=chosen, scene=scene, time=falls(scene, 50.0))
     for case, takes in PROBED.items():
         for method, chosen in takes.items():
             yield Probe(case=case, method=method, variant=chosen, question=PROBES[case])
