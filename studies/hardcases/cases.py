@@ -22,6 +22,7 @@ LATTICE, JITTERED = "fixed-lattice", "fixed-jittered-delaunay"
 CARRIED, MOVING = "moving-delaunay", "moving"
 NESTED = "fixed-lattice-nested-only"
 RANDOM = (JITTERED, CARRIED, MOVING)    # whose points lie as a seed says
+CHEAP = (LATTICE, JITTERED, *STABLE, CARRIED)       # enough to be tried with 32 rows
 TILED = Tiled(variant(GRID))
 
 #: name -> (what runs it, variant)
@@ -54,7 +55,7 @@ NO_PLATES[GRID] = TILED
 USUAL = SPAM | POINTS | MOVE | TRIANGLES
 #: case -> who takes part in place of the usual ones
 TAKES: dict[str, dict[str, Any]] = {
-    "Ra 1e7": variants(LATTICE, JITTERED, *STABLE, CARRIED),
+    **dict.fromkeys(("Ra 1e7", "Ra 1e8"), variants(*CHEAP, MOVING) | smooth("spam", "spam-corrected")),
     "disordered points": variants(LATTICE, JITTERED, *STABLE, "fixed-random-delaunay", "fixed-jittered-plain",
                                   "fixed-jittered-closed", CARRIED),
     "narrow weight": variants(LATTICE)
@@ -75,7 +76,7 @@ PROBED = dict.fromkeys(PROBES, USUAL | {GRID: TILED})
 PROBED["alternating densities"] = variants(LATTICE, JITTERED, *STABLE, CARRIED, MOVING)
 
 #: layers that are tried with 32 rows, too
-TALL = ("Ra 1e6", "Ra 1e7")
+TALL = ("Ra 1e5", "Ra 1e6", "Ra 1e7", "Ra 1e8", "Prandtl 0.01", "Prandtl 100", "high pressure")
 LENGTHS = (24, 36, 48, 72, 96, 144, 192)
 MORE_SEEDS = 16         # of the longest viscous tube of smooth particles, whose ringing is near its limit
 #: scale, k a, number of seeds
@@ -153,9 +154,11 @@ def hard() -> Iterator[Case]:
         for method, chosen in TAKES.get(case, USUAL).items():
             yield Hard(case=case, method=method, variant=chosen, scene=scene, time=time)
     for case in TALL:
-        scene = replace(SITUATIONS[case].scene, L=2.0*ROWS)
-        for method, chosen in TAKES["Ra 1e7"].items():
-            yield Hard(case=case, method=method, variant=chosen, scene=scene, time=falls(scene, 50.0))
+        small, time = SITUATIONS[case]
+        scene = replace(small, L=2.0*ROWS)
+        later = time*falls(scene, 1.0)/falls(small, 1.0)
+        for method, chosen in variants(*CHEAP).items():
+            yield Hard(case=case, method=method, variant=chosen, scene=scene, time=later)
     for case, takes in PROBED.items():
         for method, chosen in takes.items():
             yield Probe(case=case, method=method, variant=chosen, question=PROBES[case])

@@ -48,7 +48,8 @@ def prepared(method: str, scene: Any, seed: int, step: float) -> Ready:
     x, _ = of_one_mass(scene, seed) if isinstance(variant(method), Variant) else (None, None)
     places = {} if x is None else {"x": x}
     made, swift = ready(scene, method, seed, **places), ready(Swift(scene), method, seed, **places)
-    return made._replace(dt=step*min(made.dt, swift.dt))
+    flat = made.start.reshape(len(made.start), -1)      # of a block of the grid
+    return Ready(made.method, flat, step*min(made.dt, swift.dt))
 
 
 @dataclass(frozen=True, kw_only=True)
