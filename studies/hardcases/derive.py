@@ -43,7 +43,7 @@ def derive(tables: Tables) -> Rows:
     for name, make in OF_MAP.items():
         if name in tables:
             rows["map"] += make(tables[name])
-    rows["needs"] = list(needs(pd.DataFrame(rows["map"])))
+    rows["needs"] = list(needs(pd.DataFrame(rows["map"]))) if rows["map"] else []
     return {name: new for name, new in rows.items() if new}
 
 
@@ -183,15 +183,17 @@ def of_trials(trials: pd.DataFrame) -> Iterator[Row]:
         elif reached < 1:
             yield entry(*place, "diverges", PART_OF_TIME, reached)
         else:
-            value = runs.measured.loc[(runs.measured - column.expected).abs().idxmax()]
+            values = runs.measured.to_numpy()
+            value = values[np.argmax(np.abs(values - column.expected))]
             stops = column.number == LEFT and value < FROZEN
             result = "freezes" if stops else "right" if column.right(value) else "wrong"
-            yield entry(*place, result, column.number, value, np.ptp(runs.measured)/2, column.expected)
+            yield entry(*place, result, column.number, value, np.ptp(values)/2, column.expected)
 
 
 def needs(rows: pd.DataFrame) -> Iterator[Row]:
     """Pairs of methods in the same case: what edges do without the flux that survives, and with it."""
-    outcomes = {(one.case, one.variant, one.method): one.outcome for one in rows.itertuples()}
+    outcomes = {(case, variant, method): outcome for case, variant, method, outcome
+                in rows[["case", "variant", "method", "outcome"]].to_numpy()}
     for (case, variant, method), outcome in outcomes.items():
         if other := outcomes.get((case, variant, PAIRS.get(method, ""))):
             yield {"case": case, "method": method, "variant": variant, "without": outcome, "listed": other,

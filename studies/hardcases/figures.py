@@ -68,10 +68,10 @@ def chart(rows: pd.DataFrame) -> Figure:
     shades = rows.pivot(index="case", columns="method", values="shade").loc[cases, methods]
     page, axes = figure(width=7.4, height=2.6 + 0.2*len(cases))
     axes.pcolormesh(shades.where(shades >= 0), cmap=SHADES, vmin=0, vmax=len(LEVELS), edgecolors="white")
-    for row in rows.itertuples():
-        words = WORDS.get(row.outcome) or tenths(row.error)
-        x, y = methods.index(row.method) + 0.5, cases.index(row.case) + 0.5
-        colour = "white" if row.shade > 1 else "black"
+    for case, method, *cell in rows[["case", "method", "outcome", "error", "shade"]].to_numpy():
+        x, y, (outcome, error, shade) = methods.index(method) + 0.5, cases.index(case) + 0.5, cell
+        colour = "white" if shade > 1 else "black"
+        words = WORDS.get(outcome) or tenths(error)
         axes.text(x, y, words, ha="center", va="center", fontsize=8, color=colour)
     axes.axvline(sum(not name.endswith(LISTED) for name in methods), color="black", linewidth=2)
     axes.invert_yaxis()

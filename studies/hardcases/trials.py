@@ -80,7 +80,7 @@ class Trial(Case):
         seen: list[Fields] = []
 
         def look(at: Fields) -> None:
-            seen.append(at._make(map(np.copy, at)))
+            seen.append(at._make(map(np.copy, at)))     # type: ignore[call-arg, arg-type]
         row["reached"] = followed(made, scene.time, 1, look, report).reached
         return Outcome({"trials": [row | (scene.seen(*seen) if row["reached"] == 1 else {})]})
 
