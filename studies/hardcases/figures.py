@@ -36,10 +36,11 @@ LEVELS, SHADES = (1.0, 5.0, 1e9), ListedColormap(["#DEEBF7", "#F5C26B", "#D55E00
 #: outcome -> what stands in place of a number
 WORDS = {"diverges": "ends", "freezes": "stops", "refused": "no", "unjudged": "?"}
 KEY = ("A cell is an error over what is allowed, so that 1 is the limit: of the flow against the finest "
-       "grid, the exact answer or theory a tenth, of waves and fronts without viscosity 4 and 1 spacings; "
-       "the worst of all sizes, starts and steps. Lightest: right, by all that is asked. Dark: a run ended "
-       "early. stops: the flow did. no: the method refuses. ?: nothing to judge by. Empty: not tried. Right "
-       "of the line: with a flux that survives. Methods tried in one or two cases are in map.csv.")
+       "grid, the exact answer or theory a tenth, like the ringing of v in shock tubes; of where waves "
+       "and fronts without viscosity are 4 and 1 spacings; the worst of all sizes, starts and steps. "
+       "Lightest: right, by all that is asked. Dark: a run ended early. stops: the flow did. no: the method "
+       "refuses. ?: nothing to judge by. Empty: not tried. Right of the line: with a flux that survives. "
+       "Methods tried in one or two cases are in map.csv.")
 
 
 def judged(rows: pd.DataFrame) -> pd.DataFrame:
