@@ -10,6 +10,7 @@ from particles.weights import Lucy, Monaghan
 from studies.build import variant, variants
 from studies.build.spam import PRINTED
 from studies.hardcases import high_ra, printed, robust, trials, tubes
+from studies.hardcases.columns import COLUMNS
 from studies.hardcases.extremes import LAYERS, ROWS, SITUATIONS, Smooth, Tiled, WithoutPlates, falls
 from studies.hardcases.high_ra import FineGrid, HighRa, Rippled
 from studies.hardcases.printed import Interface, Square
@@ -63,7 +64,8 @@ TAKES: dict[str, dict[str, Any]] = {
     | {f"fixed-lattice-h{h:g}": variant(LATTICE)._replace(h=h) for h in (0.9, 1.2, 1.5)},
     "zero viscosity": NO_PLATES,
     "vacuum": NO_PLATES,
-    "wall corner": SPAM | TRIANGLES | smooth("spam-walls-odd", "spam-walls-own-pressure", "spam-direct")
+    "wall corner": SPAM | TRIANGLES | variants(LATTICE, JITTERED, *STABLE)
+    | smooth("spam-walls-odd", "spam-walls-own-pressure", "spam-direct")
     | {"spam-no-walls": WithoutPlates(Smooth(PRINTED))},
     "long rest": variants(LATTICE, JITTERED, CARRIED),
     "a million points": {name: NO_PLATES[name] for name in (GRID, "spam", CARRIED)},
@@ -98,6 +100,8 @@ def quick() -> Iterator[Case]:
     yield Interface(scale=0.5)
     scene, time = SITUATIONS["Prandtl 100"]
     yield Hard(case="Prandtl 100", method=LATTICE, variant=variant(LATTICE), scene=scene, time=time/10)
+    for method in (LATTICE, STABLE[0]):
+        yield trials.Trial(case="Toro 2", scene=COLUMNS["Toro 2"].scene, method=method, rows=20)
 
 
 def paper() -> Iterator[Case]:
