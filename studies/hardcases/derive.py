@@ -6,8 +6,8 @@ reference is uncertain by, of what it should be; without viscosity within what `
 and steps of a size. wrong: stable, and none of these. A shock tube is right if v neither rings nor is off by
 more than NEAR, and diverges if a tube of any length did. refused: the method says itself that it does not
 take the case. With 32 rows K stands in for the flow, whose cells are those of 16 rows: set after a look.
-unjudged: there is nothing to hold it against, since no two grids
-besides itself came to their end, or a rate is known to worse than NEAR.
+unjudged: there is nothing to hold it against, since no two grids besides itself came to their end, or a rate
+is known to worse than NEAR.
 """
 from collections.abc import Callable, Iterator
 from typing import Any
