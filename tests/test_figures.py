@@ -10,7 +10,7 @@ from matplotlib.lines import Line2D
 from matplotlib.text import Text
 
 from studies.hardcases import figures as hardcases_figures
-from studies.hardcases.derive import TABLES
+from studies.hardcases.tables import TABLES
 from studies.kit.sweep import load
 from studies.kit.table import Tables
 from studies.rb import tables

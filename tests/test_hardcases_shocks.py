@@ -1,13 +1,22 @@
 """Shocks: against jumps, by all methods, ripples and their impulse. High Ra: how a limit is sought."""
 import numpy as np
+import pandas as pd
 import pytest
 
+from continuum.exact.blast import blast
 from continuum.exact.riemann import GasState, density, middle, shock_speed, solution
 from continuum.fluid import ConstEta
+from particles.fields import Fields
+from particles.integral.points import lattice
+from studies.build.answers import with_rows
 from studies.hardcases import high_ra
 from studies.hardcases.cases import IN_LAYERS, IN_TUBES, RANDOM
+from studies.hardcases.columns import COLUMNS
+from studies.hardcases.derive import derive
 from studies.hardcases.high_ra import no_report
 from studies.hardcases.printed import divide, gases, impulse, ripple
+from studies.hardcases.robust import Strip
+from studies.hardcases.trials import prepared
 from studies.hardcases.tubes import (
     DENSE,
     EOS,
@@ -23,6 +32,7 @@ from studies.hardcases.tubes import (
     viscous,
     wiggles,
 )
+from studies.kit.table import Tables
 
 SHORT = 12
 
@@ -152,3 +162,75 @@ def test_methods_convect_alike_where_rows_suffice(method, monkeypatch):
     run, variant = IN_LAYERS[method]
     attempt, grid = run(variant, 1e4, 1, 1.0), high_ra.on_grid(16, 1e4, 2, 1.0)
     assert attempt.reached == 1 and attempt.k == pytest.approx(grid.k, rel=0.2)
+
+
+def test_a_point_explodes_as_published():
+    """Energies, of a plane to one side, of shocks 0.5, 0.75 and 1 far at t = 1    [Kamm & Timmes 2007]"""
+    assert 0.75**4*blast(1.4, 2).alpha == pytest.approx(0.311357, rel=1e-4)
+    assert blast(1.4, 3).alpha == pytest.approx(0.851072, rel=1e-4)
+    assert 0.5**3*blast(1.4, 1).alpha == pytest.approx(2*0.0673185, rel=1e-3)
+    with pytest.raises(ValueError, match="up to 2, got 1"):
+        blast(1.0)
+
+
+@pytest.mark.parametrize("case", COLUMNS)
+def test_what_a_case_asks_of_its_exact_answer_is_what_it_should_be(case):
+    """Fields of the answer itself on a fine lattice; where only numbers are known, of the start."""
+    column = COLUMNS[case]
+    scene = with_rows(column.scene, 2*column.sizes[0])
+    first = on_lattice(scene, *scene.fields(lattice((round(scene.width), round(scene.L))).x))
+    at = first
+    if isinstance(scene, Strip):
+        left, right, _ = scene.problem
+        rho, v, P = solution(left, right, GAMMA, first.x[:, 0]/scene.time)
+        at = on_lattice(scene, rho/left.rho, np.stack([v, 0*v], axis=1), P/rho)
+    if case == "Noh":
+        r = np.hypot(*first.x.T)
+        inside = r < scene.time/3
+        at = on_lattice(scene, np.where(inside, 16.0, 1 + scene.time/r), -first.x/r[:, None], inside/3)
+    if case != "Sedov":
+        value = scene.seen(first, at)
+        assert column.right(value["measured"]) and abs(value.get("plateau", 0)) < 0.1
+        assert not column.right(value["measured"] + 10*column.within)
+    assert 0 < scene.time < np.inf and scene.fastest > 0
+
+
+def on_lattice(scene, rho, v, T) -> Fields:
+    x = lattice((round(scene.width), round(scene.L))).x
+    return Fields(x, v, rho, T, np.ones(len(x)))
+
+
+def test_the_front_of_a_blast_is_read_off_its_energy():
+    """A hollow disc whose energy has the mean radius of the exact one is where it should be."""
+    scene = COLUMNS["Sedov"].scene
+    x = lattice((scene.L, scene.L)).x
+    first = on_lattice(scene, *scene.fields(x))
+    radius = ((EOS.cv*first.T).sum()*scene.time**2/blast(GAMMA).alpha)**0.25
+    ring = np.exp(-(np.hypot(*x.T) - radius*blast(GAMMA).radius)**2)
+    assert radius == pytest.approx(scene.radius, rel=0.03)      # points in a disc of two spacings
+    assert scene.seen(first, on_lattice(scene, 1 + 0*ring, 0*x, ring))["measured"] < 0.1
+
+
+@pytest.mark.parametrize("method", ["grid", "fixed-lattice-entropy-stable", "moving-delaunay", "spam"])
+def test_steps_of_trials_are_those_of_the_fastest_flow_to_come(method):
+    """Noh's start is cold: its own limit would be hundreds of times longer."""
+    scene = with_rows(COLUMNS["Noh"].scene, 16)
+    whole, half = (prepared(method, scene, 1, step).dt for step in (1.0, 0.5))
+    assert 0.02 < whole < 1.0 and half == whole/2
+
+
+def test_one_ended_run_decides_its_size():
+    run = {"case": "Sod", "method": "fixed-lattice", "rows": 50, "seed": 1, "reached": 1.0, "refused": "",
+           "measured": 1.0}
+    runs = [run | {"step": 1.0}, run | {"step": 0.5, "measured": 2.0},
+            run | {"rows": 100, "step": 1.0, "reached": 0.5}, run | {"case": "Noh", "rows": 48, "step": 1.0},
+            run | {"case": "Gresho", "rows": 24, "step": 1.0, "measured": 0.01},
+            *(run | {"rows": rows, "step": 1.0, "method": f"{run['method']}-entropy-stable"}
+              for rows in (50, 100))]
+    rows = derive(Tables(trials=pd.DataFrame(runs)))
+    found = {(row["case"], row["method"], row["variant"]): row for row in rows["map"]}
+    sod = found["Sod", "fixed-lattice", "50 rows"]
+    assert (sod["measured"], sod["measured_err"], sod["outcome"]) == (2.0, 0.5, "right")
+    assert found["Sod", "fixed-lattice", "100 rows"]["outcome"] == "diverges"
+    assert found["Gresho", "fixed-lattice", "24 rows"]["outcome"] == "freezes"
+    assert {row["variant"]: row["needed"] for row in rows["needs"]} == {"50 rows": "no", "100 rows": "yes"}

@@ -41,7 +41,8 @@ def middle(left: GasState, right: GasState, gamma: float) -> Middle:
         return jump(left, P, gamma) + jump(right, P, gamma) + right.v - left.v
     if gap(0.0) >= 0:
         raise ValueError(f"a vacuum opens between {left} and {right}: let them part more slowly")
-    P = float(brentq(gap, 0.0, 1e3*(left.P + right.P), xtol=1e-15, rtol=1e-14))
+    ram = (gamma + 1)*(left.rho + right.rho)*(right.v - left.v)**2
+    P = float(brentq(gap, 0.0, 1e3*(left.P + right.P) + ram, xtol=1e-15, rtol=1e-14))
     return Middle(left.v - jump(left, P, gamma), P, density(left, P, gamma), density(right, P, gamma))
 
 

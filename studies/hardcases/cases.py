@@ -1,5 +1,6 @@
 """Which methods meet which case, by size: a method is a line, a case is a line."""
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 from itertools import product
 from typing import Any
 
@@ -8,8 +9,9 @@ from particles.run import STUDIES
 from particles.weights import Lucy, Monaghan
 from studies.build import variant, variants
 from studies.build.spam import PRINTED
-from studies.hardcases import high_ra, printed, robust, tubes
-from studies.hardcases.extremes import LAYERS, ROWS, SITUATIONS, Smooth, Tiled, WithoutPlates
+from studies.hardcases import high_ra, printed, robust, trials, tubes
+from studies.hardcases.columns import COLUMNS
+from studies.hardcases.extremes import LAYERS, ROWS, SITUATIONS, Smooth, Tiled, WithoutPlates, falls
 from studies.hardcases.high_ra import FineGrid, HighRa, Rippled
 from studies.hardcases.printed import Interface, Square
 from studies.hardcases.robust import STABLE
@@ -21,6 +23,7 @@ LATTICE, JITTERED = "fixed-lattice", "fixed-jittered-delaunay"
 CARRIED, MOVING = "moving-delaunay", "moving"
 NESTED = "fixed-lattice-nested-only"
 RANDOM = (JITTERED, CARRIED, MOVING)    # whose points lie as a seed says
+CHEAP = (LATTICE, JITTERED, *STABLE, CARRIED)       # enough to be tried with 32 rows
 TILED = Tiled(variant(GRID))
 
 #: name -> (what runs it, variant)
@@ -43,7 +46,7 @@ def smooth(*names: str) -> dict[str, Any]:
 
 
 #: the map: name -> what has ready(scene)
-SPAM = smooth("spam", "spam-wendland-c2")
+SPAM = smooth("spam", "spam-wendland-c2", "spam-corrected")
 POINTS = variants(LATTICE, NESTED, JITTERED, *STABLE)
 MOVE = variants("moving-literal", "moving-constant-mass", MOVING)
 TRIANGLES = variants(CARRIED)
@@ -53,7 +56,7 @@ NO_PLATES[GRID] = TILED
 USUAL = SPAM | POINTS | MOVE | TRIANGLES
 #: case -> who takes part in place of the usual ones
 TAKES: dict[str, dict[str, Any]] = {
-    "Ra 1e7": variants(LATTICE, JITTERED, *STABLE, CARRIED),
+    **dict.fromkeys(("Ra 1e7", "Ra 1e8"), variants(*CHEAP, MOVING) | smooth("spam", "spam-corrected")),
     "disordered points": variants(LATTICE, JITTERED, *STABLE, "fixed-random-delaunay", "fixed-jittered-plain",
                                   "fixed-jittered-closed", CARRIED),
     "narrow weight": variants(LATTICE)
@@ -61,7 +64,8 @@ TAKES: dict[str, dict[str, Any]] = {
     | {f"fixed-lattice-h{h:g}": variant(LATTICE)._replace(h=h) for h in (0.9, 1.2, 1.5)},
     "zero viscosity": NO_PLATES,
     "vacuum": NO_PLATES,
-    "wall corner": SPAM | TRIANGLES | smooth("spam-walls-odd", "spam-walls-own-pressure", "spam-direct")
+    "wall corner": SPAM | TRIANGLES | variants(LATTICE, JITTERED, *STABLE)
+    | smooth("spam-walls-odd", "spam-walls-own-pressure", "spam-direct")
     | {"spam-no-walls": WithoutPlates(Smooth(PRINTED))},
     "long rest": variants(LATTICE, JITTERED, CARRIED),
     "a million points": {name: NO_PLATES[name] for name in (GRID, "spam", CARRIED)},
@@ -73,6 +77,8 @@ TAKES: dict[str, dict[str, Any]] = {
 PROBED = dict.fromkeys(PROBES, USUAL | {GRID: TILED})
 PROBED["alternating densities"] = variants(LATTICE, JITTERED, *STABLE, CARRIED, MOVING)
 
+#: layers that are tried with 32 rows, too
+TALL = ("Ra 1e5", "Ra 1e6", "Ra 1e7", "Ra 1e8", "Prandtl 0.01", "Prandtl 100", "high pressure")
 LENGTHS = (24, 36, 48, 72, 96, 144, 192)
 MORE_SEEDS = 16         # of the longest viscous tube of smooth particles, whose ringing is near its limit
 #: scale, k a, number of seeds
@@ -94,6 +100,8 @@ def quick() -> Iterator[Case]:
     yield Interface(scale=0.5)
     scene, time = SITUATIONS["Prandtl 100"]
     yield Hard(case="Prandtl 100", method=LATTICE, variant=variant(LATTICE), scene=scene, time=time/10)
+    for method in (LATTICE, STABLE[0]):
+        yield trials.Trial(case="Toro 2", scene=COLUMNS["Toro 2"].scene, method=method, rows=20)
 
 
 def paper() -> Iterator[Case]:
@@ -112,6 +120,7 @@ def paper() -> Iterator[Case]:
     yield from highest()
     yield from hard()
     yield from robust.cases()
+    yield from trials.cases()
 
 
 def smooth_tubes(lengths: Sequence[int], etas: Sequence[float], seeds: Iterable[int]) -> Iterator[Case]:
@@ -148,6 +157,12 @@ def hard() -> Iterator[Case]:
             yield HardOnGrid(case=case, scene=scene, time=time, rows=rows)
         for method, chosen in TAKES.get(case, USUAL).items():
             yield Hard(case=case, method=method, variant=chosen, scene=scene, time=time)
+    for case in TALL:
+        small, time = SITUATIONS[case]
+        scene = replace(small, L=2.0*ROWS)
+        later = time*falls(scene, 1.0)/falls(small, 1.0)
+        for method, chosen in variants(*CHEAP).items():
+            yield Hard(case=case, method=method, variant=chosen, scene=scene, time=later)
     for case, takes in PROBED.items():
         for method, chosen in takes.items():
             yield Probe(case=case, method=method, variant=chosen, question=PROBES[case])

@@ -3,18 +3,16 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from continuum.fluid import DenseFluid, IdealGas
-from studies.hardcases.robust import PAIRS, STABLE
+from studies.hardcases import survives
 from studies.hardcases.tubes import BARELY, CELL_NUMBER, STEPS
 from studies.kit.ask import (
     Value,
     farthest_of,
-    largest_of,
     last,
     least,
     of,
     one,
     over_seeds,
-    power,
     rows,
     total,
 )
@@ -211,57 +209,4 @@ MAP = (
           f"{WAVE}, points on a lattice, 16 spacings to the flow's wavelength"),
 )
 
-# --- a flux that survives -------------------------------------------------------------------------
-
-FLUX = "fixed points with a flux that keeps entropy, dissipation where a flow is not smooth, and limits"
-LASTED = tuple(total(table, "reached < 1", method=STABLE)
-               for table in ("hard_runs", "probes", "method_tubes", "riemann"))
-
-
-def over_plain(scene: str, rows: int, pairs: int = 2) -> tuple[Value, ...]:
-    """Of pairs of methods: with the flux over without."""
-    return tuple(one("smooth_flows", "value", scene=scene, rows=rows, method=stable)
-                 / one("smooth_flows", "value", scene=scene, rows=rows, method=plain)
-                 for plain, stable in list(PAIRS.items())[:pairs])
-
-
-def sod(value: str) -> Value:
-    """Of Sod's tube on a lattice, 100 spacings in all, over its range."""
-    return one("riemann", value, problem="Sod", cells=100, method=STABLE[0])
-
-
-SURVIVES = (
-    Claim(id="own-stable-lasts", source="KHP95 Sec. VI", at_most=0, because=ENDS,
-          value=sum(LASTED[1:], LASTED[0]),
-          statement=f"{FLUX} come to their end in every case of the map they take, Sod's tubes, "
-                    "Toro's problems, a vacuum of a millionth, a collision at Mach 27: runs that end early"),
-    Claim(id="own-stable-convection", source="RR98 Eqs 34-36", expect=1.0, within=1e-3,
-          value=over_plain("rayleigh-benard", 48, 1)[0],
-          because="a fifth of the 0.5 % by which 48 rows are off",
-          statement=f"{FLUX}, lattice of 48 rows: K at Ra 10 000 over that of the same edges without"),
-    Claim(id="own-stable-smooth", source="RR98 Eqs 34-36", at_most=1.05,
-          value=largest_of(*over_plain("taylor-green", 64), *over_plain("sound", 32)),
-          because="5 %: by which 2.5 % more rows lessen an error of second order",
-          statement=f"{FLUX}: errors of a vortex of 64 rows and of a sound wave of 32 over those without"),
-    *(Claim(id=f"own-stable-kept-{name}", source="KHP95 Sec. V", at_least=least,
-            value=one("hard_runs", "k/k_start", case="zero viscosity", method=method),
-            because="what a trial had kept, with room: centred exchange on a lattice loses 0.2 %",
-            statement=f"{METHODS[plain]}, with the flux, keep an inviscid vortex of 16 rows for five turns: "
-                      "K of the last third over the first")
-      for name, (plain, method), least in zip(("lattice", "jittered"), PAIRS.items(), (0.99, 0.97))),
-    Claim(id="own-stable-sod", source="Sod 1978", at_most=1.0,
-          value=largest_of(sod("rho_exact/0.013"), sod("v_exact/0.02"), sod("P_exact/0.01")),
-          because="the shock within a spacing, the contact in four",
-          statement="lattice points with the flux, 100 to Sod's tube, no viscosity: mean differences of "
-                    "density, velocity and pressure over 1.3, 2 and 1 % of their ranges, the largest"),
-    Claim(id="own-stable-sod-rings", source="Sod 1978", at_most=0.03, value=sod("wiggles"),
-          because="3 % of the velocity's variation is hardly seen",
-          statement="lattice points with the flux do not ring behind Sod's shock without viscosity: "
-                    "variation of v beyond that of the exact solution, over it, 100 points"),
-    Claim(id="own-stable-sod-order", source="Sod 1978", at_most=-0.8,
-          because="between that of a contact, 2/3, and of a shock, 1",
-          value=power("riemann", "rho_exact", "cells", problem="Sod", method=STABLE[0]),
-          statement="lattice points with the flux converge in Sod's tube without viscosity: d ln(error)/"
-                    "d ln(points) of the density"),
-)
-CLAIMS = (*SQUARES, *SHOCKS, *HIGH_RA, *MAP, *SURVIVES)
+CLAIMS = (*SQUARES, *SHOCKS, *HIGH_RA, *MAP, *survives.CLAIMS)

@@ -1,11 +1,13 @@
-"""The tables, and rows that follow from whole ones: growth of ripples, the highest Ra, and the map.
+"""Rows that follow from whole ones: growth of ripples, the highest Ra, and the map.
 
 Rules of the map, written before the runs. diverges: the run did not reach its end. leaks: mass changed by
 more than LEAK. freezes: less than FROZEN of the flow is left. right: the number is within NEAR, and what the
-reference is uncertain by, of what it should be. wrong: stable, and none of these. A shock tube is right if v
-neither rings nor is off by more than NEAR, and diverges if a tube of any length did. refused: the method says
-itself that it does not take the case. unjudged: there is nothing to hold it against, since no two grids
-besides itself came to their end, or a rate is known to worse than NEAR.
+reference is uncertain by, of what it should be; without viscosity within what `columns` allows, in all starts
+and steps of a size. wrong: stable, and none of these. A shock tube is right if v neither rings nor is off by
+more than NEAR, and diverges if a tube of any length did. refused: the method says itself that it does not
+take the case. With 32 rows K stands in for the flow, whose cells are those of 16 rows: set after a look.
+unjudged: there is nothing to hold it against, since no two grids besides itself came to their end, or a rate
+is known to worse than NEAR.
 """
 from collections.abc import Callable, Iterator
 from typing import Any
@@ -13,13 +15,15 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from studies.hardcases.extremes import BOXES, ROWS, SITUATIONS, SOUND, rarefied
+from studies.hardcases.columns import COLUMNS, LEFT
+from studies.hardcases.extremes import BOXES, ROWS, SOUND, rarefied
 from studies.hardcases.printed import impulse
+from studies.hardcases.robust import PAIRS
 from studies.hardcases.survival import PROBES
 from studies.hardcases.tubes import STEPS
 from studies.kit.fits import line
 from studies.kit.stats import Measured, combine, over_seeds
-from studies.kit.table import Rows, Table, Tables, groups
+from studies.kit.table import Rows, Tables, groups
 
 Row = dict[str, Any]
 SETTLED = 0.3           # part of the time from the shock to its return that the ripple takes to grow steadily
@@ -40,6 +44,7 @@ def derive(tables: Tables) -> Rows:
     for name, make in OF_MAP.items():
         if name in tables:
             rows["map"] += make(tables[name])
+    rows["needs"] = list(needs(pd.DataFrame(rows["map"]))) if rows["map"] else []
     return {name: new for name, new in rows.items() if new}
 
 
@@ -93,8 +98,7 @@ def of_runs(runs: pd.DataFrame) -> Iterator[Row]:
         result = outcome(run, number, ratio)
         if result == "diverges":
             number, ratio, expected = PART_OF_TIME, Measured(run.reached), 1.0
-        variant = f"L {SITUATIONS[run.case].scene.L:g}"
-        yield entry(run.case, run.method, variant, result, number, *ratio, expected)
+        yield entry(run.case, run.method, f"L {run.rows:g}", result, number, *ratio, expected)
 
 
 def decisive(runs: pd.DataFrame, run: pd.Series) -> tuple[str, Measured]:
@@ -105,21 +109,23 @@ def decisive(runs: pd.DataFrame, run: pd.Series) -> tuple[str, Measured]:
         return "K/exact", Measured(run.k/rarefied(MIDDLE*BOXES["vacuum"].time))
     if run.case in ("zero viscosity", "a million points"):      # nothing slows the flow down
         return "flow/start", Measured(run.flow/run.flow_start)
-    return "flow/grid", flow_over_grid(runs, run)
+    if run.method != "grid" and run.rows != ROWS:       # cells of mean flow are another part of the height
+        return "K/grid", over_grid(runs, run, "k")
+    return "flow/grid", over_grid(runs, run, "flow")
 
 
-def flow_over_grid(runs: pd.DataFrame, run: pd.Series) -> Measured:
-    """Flow over that of the finest grid that came to its end; error: what the next coarser one changes.
+def over_grid(runs: pd.DataFrame, run: pd.Series, name: str) -> Measured:
+    """A column over that of the finest grid that came to its end; error: what the next coarser one changes.
 
     A grid is no judge of itself: neither the reference nor its error come from the rows that are judged.
     """
-    grids = runs[(runs.case == run.case) & (runs.method == "grid")].dropna(subset=["flow"])
+    grids = runs[(runs.case == run.case) & (runs.method == "grid")].dropna(subset=[name])
     if run.method == "grid":
         grids = grids[grids.rows != run.rows]
     if len(grids) < 2:
         return Measured(np.nan, np.nan)
-    coarse, fine = grids.sort_values("rows").flow.iloc[-2:]
-    ratio = run.flow/fine
+    coarse, fine = grids.sort_values("rows")[name].iloc[-2:]
+    ratio = run[name]/fine
     return Measured(ratio, abs(ratio*(coarse/fine - 1)))
 
 
@@ -171,63 +177,32 @@ def of_tubes(tubes: pd.DataFrame) -> Iterator[Row]:
         yield entry(*place, result, "ringing of v", ring.mean(), np.ptp(ring)/2, 0.0)
 
 
+def of_trials(trials: pd.DataFrame) -> Iterator[Row]:
+    """Starts and steps of one size together: the one farthest off, or that one ended."""
+    for (case, method, rows), runs in groups(trials, ["case", "method", "rows"]):
+        column, place, reached = COLUMNS[case], (case, method, f"{rows} rows"), runs.reached.min()
+        if runs.refused.any():
+            yield entry(*place, "refused", column.number, np.nan, predicted=column.expected)
+        elif reached < 1:
+            yield entry(*place, "diverges", PART_OF_TIME, reached)
+        else:
+            values = runs.measured.to_numpy()
+            value = values[np.argmax(np.abs(values - column.expected))]
+            stops = column.number == LEFT and value < FROZEN
+            result = "freezes" if stops else "right" if column.right(value) else "wrong"
+            yield entry(*place, result, column.number, value, np.ptp(values)/2, column.expected)
+
+
+def needs(rows: pd.DataFrame) -> Iterator[Row]:
+    """Pairs of methods in the same case: what edges do without the flux that survives, and with it."""
+    outcomes = {(case, variant, method): outcome for case, variant, method, outcome
+                in rows[["case", "variant", "method", "outcome"]].to_numpy()}
+    for (case, variant, method), outcome in outcomes.items():
+        if other := outcomes.get((case, variant, PAIRS.get(method, ""))):
+            yield {"case": case, "method": method, "variant": variant, "without": outcome, "listed": other,
+                   "needed": "yes" if outcome == "diverges" != other else "no"}
+
+
 #: table -> rows of the map
 OF_MAP: dict[str, Callable[[pd.DataFrame], Iterator[Row]]] = {
-    "hard_runs": of_runs, "probes": of_probes, "method_tubes": of_tubes}
-
-
-# --- tables: lengths in spacings, masses of particles or points; `_err` 95 % half widths --------------------
-
-TUBE = "method eta step L seed"
-
-MEAN_FLOW = ("K of the flow of the last third: velocities averaged over 4 x 4 spacings", "epsilon/m")
-STEP = {"step": ("step over that at the limit of stability", "")}
-
-TABLES = (
-    Table.of("squares", "eos weight ra seed", "alpha rolls begun flow ratio ratio_err shared",
-             about="Particles in the square box of KHP95's Fig. 10 at the end.",
-             means={"flow": ("K of the mean flow", "epsilon/m"),
-                    "ratio": ("median of second over first neighbour distance", "")}),
-    Table.of("method_tubes", TUBE, "rho_exact v_exact P_exact rho_grid v_grid P_grid wiggles reached",
-             means=STEP, about="Sod's shock tube by one method, at the end."),
-    Table.of("method_tube_profiles", f"{TUBE} x", "rho v P", large=True,
-             digits=dict.fromkeys(("x", "rho", "v", "P"), ".5g"), about="A place of such a tube.",
-             means=STEP | {"x": ("distance from the diaphragm", "L")}),
-    Table.of("ripples", "scale steep seed time", "height amplitude",
-             about="An instant of an interface that a shock runs over [KHP95, Fig. 11]."),
-    Table.of("ripple_growth", "scale steep", "seeds growth growth_err",
-             about="The growth of such ripples, means over seeds.",
-             means={"growth": ("growth rate over that of theory", "")}),
-    Table.of("high_ra_grid", "ra rows", "k cell_number reached",
-             about="A run of the fine grid at high Ra.",
-             means={"cell_number": ("cell number v a/nu of the fastest flow at the end, a of 16 rows", "")}),
-    Table.of("high_ra_trials", "method step seed ra", "k over reached",
-             about="A run of the search for the highest Ra."),
-    Table.of("high_ra", "method step seed kind", "ra ra_err tried outcome",
-             about="What a search found.",
-             means={"kind": ("wrong: K is, or the run ended; ends: the run ended", ""),
-                    "ra": ("Ra from which on runs are so; none if they are nowhere. Its error is half of the "
-                           "interval between two trials", ""),
-                    "outcome": ("of the first bad run", "")}),
-    Table.of("high_ra_summary", "method step kind",
-             "ra ra_low ra_high seeds outcome cell_number cell_number_err",
-             about="The same over seeds, means of logarithms.",
-             means={"kind": ("wrong or ends", ""), "ra": ("Ra from which on runs are so", ""),
-                    "outcome": ("what most runs do there", ""),
-                    "cell_number": ("cell number at that Ra, or at the highest Ra tried", "")}),
-    Table.of("hard_runs", "case method rows", "k flow mass_drift k_start flow_start reached refused",
-             about="A hard case by one method.", means={"flow": MEAN_FLOW}),
-    Table.of("probes", "case method", "predicted measured measured_err reached",
-             about="A number that is known, by one method.",
-             means={"measured": ("shear layer: rate in 1/t0; other: over the start", "")}),
-    Table.of("riemann", "method problem cells seed", "rho_exact v_exact P_exact wiggles reached",
-             about="A Riemann problem without viscosity, in the half of it that no wave has left.",
-             means={"cells": ("spacings of Toro's unit of length", ""), "problem": ("which", "")}),
-    Table.of("smooth_flows", "scene method rows", "value",
-             about="A smooth flow by the same edges with and without a flux that survives.",
-             means={"value": ("K of convection; rms error of velocities over the fastest of the start", "")}),
-    Table.of("map", "case method variant", "number predicted measured measured_err outcome",
-             about="The verdict on a method in a hard case.",
-             means={"variant": ("which runs of the case", ""),
-                    "outcome": ("by the rules at the head of studies/hardcases/derive.py", "")}),
-)
+    "hard_runs": of_runs, "probes": of_probes, "method_tubes": of_tubes, "trials": of_trials}

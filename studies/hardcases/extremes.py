@@ -122,6 +122,7 @@ LAYERS = {
     "Ra 1e5": convection(50.0, 1e5),
     "Ra 1e6": convection(50.0, 1e6),
     "Ra 1e7": convection(50.0, 1e7),
+    "Ra 1e8": convection(50.0, 1e8),
     "Prandtl 0.01": convection(30.0, 1e4, 0.01),
     "Prandtl 100": convection(30.0, 1e4, 100.0),
     "high pressure": convection(20.0, 1e4, 1.0, 4.0),

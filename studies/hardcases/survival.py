@@ -116,7 +116,7 @@ class Hard(Case):
 
     @property
     def label(self) -> str:
-        return f"map {self.case}, {self.method}"
+        return f"map {self.case}, {self.method}, L {self.scene.L:g}"
 
     def run(self, report: Report, folder: Path) -> Outcome:
         rows = round(self.scene.L)

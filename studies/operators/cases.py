@@ -14,7 +14,7 @@ from particles.weights import WEIGHTS, Lucy, WendlandC2
 from studies.build.setting import DISORDERS
 from studies.kit.case import Case
 from studies.operators import scheme
-from studies.operators.entropy import WAYS, Entropy
+from studies.operators.entropy import FLOWS, WAYS, Entropy
 from studies.operators.equations import Arithmetic, EquationErrors, of_dilation, of_rotation, of_volumes
 from studies.operators.makers import MAKERS as TODAY
 from studies.operators.makers import SETS, MakerErrors
@@ -124,12 +124,13 @@ def layers(quick: bool) -> Iterator[Case]:
 
 
 def entropy(quick: bool) -> Iterator[Case]:
-    """Smooth, random and worst states; the range of 2.5 a fits into six cells."""
+    """Smooth, random and worst states; the range of 2.5 a fits into six cells. Flows need closed edges."""
     sets = ((renormalised, "lattice"), (delaunay, "jittered-0.3"), (exact, "jittered-0.3"))
     states = (("smooth", (16,) if quick else (16, 32, 64), (1,)), ("random", (10,), (1,)),
               ("sought", (6,), SEEDS[:1 if quick else 3]))
-    for way, (make, kind), (state, sizes, seeds) in product(WAYS, sets, states):
-        for n, seed in product(sizes, seeds):
+    ways = (*product(WAYS, sets), *product(FLOWS, sets[:2]))
+    for (way, (make, kind)), (state, sizes, seeds) in product(ways, states):
+        for n, seed in product(sizes, seeds[:1] if way in FLOWS else seeds):
             yield Entropy(way=way, make=make, disorder=DISORDERS[kind], counts=(n, n), h=2.5, state=state,
                           seed=seed)
 

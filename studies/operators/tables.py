@@ -70,10 +70,11 @@ SHEAR_ORDERS = Table.of("shear_orders", "flow points time norm", "order order_er
                         about="How these errors fall with the rows, all runs in one fit.")
 
 ENTROPY = Table.of("entropy", "transport maker points d state cells seed", "total least negative",
-                   about="Entropy that stress and heat current produce in one state, or in 200 random ones.",
+                   about="Entropy that stress and heat current, or a flow, produce in one state, or in 200 "
+                         "random ones.",
                    means={"state": ("smooth; random; sought: where a descent ends", ""),
                           "total": ("over that of the continuum, of the smooth state", ""),
-                          "least": ("production over the sum of its sizes on edges, least of the states", ""),
+                          "least": ("production over the sum of what cancels in it, least of the states", ""),
                           "negative": ("share of the edges that destroy entropy", "")})
 
 MAKERS = Table.of("makers", "maker points cells seed",
