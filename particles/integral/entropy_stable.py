@@ -11,7 +11,7 @@ from particles.integral.entropy_fluxes import Dissipation, Logarithmic, log_mean
 from particles.integral.exchange import Listing, Pressure, pressure_of
 from particles.integral.fixed import Point, stored
 from particles.integral.layer import Layer, LayerSums
-from particles.integral.positive import COURANT, LEAST, MORE, OLD, Limits, Slopes, divided
+from particles.integral.positive import COURANT, LEAST, MORE, OLD, PART, Limits, Slopes, divided
 from particles.limits import limit_of
 from particles.pairs import Faces, sweep
 from particles.threads import Threads
@@ -59,7 +59,7 @@ class StableSums(Limits, LayerSums):
     def longest(self) -> float:
         """The step that is known to keep a state positive that was looked at."""
         sound = self.slopes[:, 8]
-        return float(1/np.max(sound/self.at.V/COURANT + self.spread*self.chi))
+        return float(1/PART/np.max(sound/self.at.V/COURANT + self.spread*self.chi))
 
     def euler(self, state: np.ndarray, dt: float, rates: np.ndarray) -> bool:
         """Go on by dt from a state with these rates; False: not even Rusanov's flux leaves rho, e > 0."""
@@ -73,9 +73,8 @@ class StableSums(Limits, LayerSums):
 
 
 class Positive:
-    """Three Euler steps, averaged, third order, which keep what each of them keeps    [Shu & Osher 1988]; in
-    as many parts as it takes for `sums.longest`, halved where that does not do."""
-    evaluations = 3
+    """Averaged Euler steps in as many parts as it takes for `sums.longest`, halved where that does not do."""
+    evaluations = len(OLD)
 
     def __init__(self, shape: tuple[int, ...], threads: Threads):
         self._start, self._k = np.empty(shape), np.empty(shape)
@@ -86,7 +85,7 @@ class Positive:
             self._start[:] = y
             sums.rates(y, self._k)
             h = left/ceil(left/min(sums.longest(), most))
-            if all(self._stage(sums, y, h, old) for old in OLD):
+            if all(self._stage(sums, y, h, number) for number in range(len(OLD))):
                 left, most = left - h, inf
                 continue
             y[:], most, sums.refused = self._start, h/2, sums.refused + 1
@@ -94,11 +93,11 @@ class Positive:
                 raise FloatingPointError(f"no step of {h:.3g} or more leaves point {sums.lost} a density and "
                                          "an energy that are positive")
 
-    def _stage(self, sums: Any, y: np.ndarray, h: float, old: float) -> bool:
-        if old:
+    def _stage(self, sums: Any, y: np.ndarray, h: float, number: int) -> bool:
+        if number:
             sums.rates(y, self._k)
-        done: bool = sums.euler(y, h, self._k)
-        y[:] = old*self._start + (1 - old)*y
+        done: bool = sums.euler(y, PART*h, self._k)
+        y[:] = OLD[number]*self._start + (1 - OLD[number])*y
         return done
 
 

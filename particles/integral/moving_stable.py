@@ -16,8 +16,9 @@ from particles.integral.carried import EXCHANGED, FIELDS, OFFSETS, complete, fol
 from particles.integral.entropy_fluxes import Dissipation, Logarithmic, MeanPressure, log_means
 from particles.integral.exchange import Listing
 from particles.integral.fixed import NO_IMAGES, check_number, first_invalid
+from particles.integral.flips import doubled
 from particles.integral.moving_delaunay import MovingDelaunay, RingSums
-from particles.integral.positive import COURANT, LEAST, MORE, OLD, Limits, Slopes, divided
+from particles.integral.positive import COURANT, LEAST, MORE, OLD, PART, Limits, Slopes, divided
 from particles.integral.rings import apart, remade
 from particles.neighbours import u64
 from particles.pairs import Face, Faces, rate, sweep
@@ -61,6 +62,19 @@ def _at_sides(first, last, term, points, rings, slopes):
                     slopes[i, c] += more[c]
 
 
+@jit
+def _turned(first, last, at, rings):
+    """A point with a triangle that has turned over, or -1."""
+    (x, y), edges = at, rings.edges
+    for i in range(first, last):
+        begin, end = edges.first[i], edges.first[i] + u64(edges.taken[i])
+        for e in range(begin, end - u64(rings.rim[i])):
+            following = e + u64(1) if e + u64(1) < end else begin
+            if not doubled(x, y, rings.size, rings.per, i, edges.near[e], edges.near[following]) > 0:
+                return i
+    return -1
+
+
 class StableRings(Limits, RingSums):
     """The compiled sums, stepped in Python. slowed : of parts that were halved, those where a triangle would
     have turned over, whose points then go on together."""
@@ -83,7 +97,7 @@ class StableRings(Limits, RingSums):
         """Give edges room for what leads along them."""
         edges = self.rings.edges
         self.edges = Faces(*edges[:6], *np.zeros((2, len(edges.near))))
-        self.rings = self.rings._replace(edges=self.edges)
+        self.rings = self.rings._replace(edges=self.edges)  # type: ignore[arg-type]
 
     def try_out(self, now: Any) -> None:
         """No step: loads the code."""
@@ -114,7 +128,7 @@ class StableRings(Limits, RingSums):
     def longest(self, y: np.ndarray) -> float:
         """The step that is known to keep a state positive that was looked at; nan on no triangulation."""
         sound = (self.slopes[:, 8] - self.bench.flow/2)/y[7]
-        return float(1/np.max(sound/COURANT + self.bench.spread*self.chi))
+        return float(1/PART/np.max(sound/COURANT + self.bench.spread*self.chi))
 
     def march(self, state: np.ndarray, dt: float, steps: int) -> None:
         """So many steps. Raises FloatingPointError: no part of one leaves triangles, densities and energies
@@ -154,12 +168,12 @@ class StableRings(Limits, RingSums):
         if h*COURANT > longest:
             return False, longest
         start = y[EXCHANGED].copy()
-        for old in OLD:
-            if old:
+        for number, old in enumerate(OLD):
+            if number:
                 self.look(y)
                 complete(self.threads, self.n, 1.0, self.rings, self.bench)
             heat(self.held, 1.0, self.bench.once)
-            if not self.euler(y, h):
+            if not self.euler(y, PART*h):
                 return False, h/2
             y[EXCHANGED] = old*start + (1 - old)*y[EXCHANGED]
             hold(self.method.eos, self.held, y)
@@ -167,7 +181,7 @@ class StableRings(Limits, RingSums):
         return True, longest
 
     def flip(self, y: np.ndarray, h: float) -> int:
-        """Edges halfway through a step, Delaunay's; a point whose triangle has turned over, or -1."""
+        """Edges halfway through a step, Delaunay's; a point whose triangle turns over by its end, or -1."""
         bench, full, turned = self.bench, 0, -1
         march.halfway(self.threads, self.n, h, y, bench.middle)
         while full >= 0:
@@ -178,6 +192,8 @@ class StableRings(Limits, RingSums):
                 self.widen()
         self.threads(_along, self.n, bench.middle, self.rings)
         self.V = bench.V.copy()
+        if turned < 0:
+            turned = max(self.threads(_turned, self.n, y[:2] + h*y[2:4], self.rings))
         return int(turned)
 
     def sound(self, y: np.ndarray) -> bool:

@@ -18,7 +18,9 @@ from particles.threads import Threads
 
 COURANT, KEPT = 0.9, 0.1        # part of the proven step; of a low-order density or energy that is kept
 LEAST = 1e-6                    # part of a step that halving goes down to
-OLD = (0.0, 3/4, 1/3)           # shares of the start in three Euler steps, third order    [Shu & Osher 1988]
+#: Euler steps of a part of a step each, and the share of the start in what each leaves: third order, and what
+#: they keep one by one they keep together    [Kraaijevanger 1991]
+PART, OLD = 0.5, (0.0, 0.0, 2/3, 0.0)
 
 SLOPES = ("rho_x", "rho_y", "P_x", "P_y", "u_x", "u_y", "v_x", "v_y")
 #: density, momentum and energy by Rusanov's flux; a step per volume and edge

@@ -28,6 +28,7 @@ PAIRS = {name: f"{name}-entropy-stable"
          for name in ("fixed-lattice", "fixed-jittered-delaunay", "moving-delaunay")}
 PLAIN, STABLE = tuple(PAIRS), tuple(PAIRS.values())
 SAMPLES = 30
+ROOMY = 2*HEIGHT        # where gases part, points that move are three spacings apart, and reach half of that
 #: scene, numbers of rows, which pairs; convection of fixed irregular points would take a quarter of an hour
 SMOOTH = (("rayleigh-benard", (48,), PLAIN[:1]), ("rayleigh-benard", (25,), PLAIN[2:]),
           ("taylor-green", (32, 64), PLAIN), ("sound", (32,), PLAIN))
@@ -73,14 +74,15 @@ class Strip(Scene):
 
 @dataclass(frozen=True, kw_only=True)
 class Riemann(Case):
-    """One problem by one method, so many spacings to the unit."""
+    """One problem by one method, so many spacings to the unit; rows : of points across the strip."""
     method: str
     problem: str
     cells: int
     seed: int = 1
+    rows: float = HEIGHT
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        strip, key = Strip(problem=PROBLEMS[self.problem], cells=self.cells), vars(self)
+        strip, key = Strip(problem=PROBLEMS[self.problem], cells=self.cells, L=self.rows), vars(self)
         method, start, dt = variant(self.method).ready(strip, self.seed)
         left, right, time = strip.problem
         steps, share = ceil(time*self.cells/dt), []
@@ -102,7 +104,8 @@ class Riemann(Case):
         order = np.argsort(x[seen], kind="stable")
         row |= dict(zip((f"{name}_exact" for name in NAMES), errors@V/V.sum()/np.ptp(exact[:, seen], axis=1)))
         level = (fields[1][seen][order], exact[1][seen][order])
-        mean = [q[:len(q)//int(HEIGHT)*int(HEIGHT)].reshape(-1, int(HEIGHT)).mean(axis=1) for q in level]
+        rows = int(self.rows)
+        mean = [q[:len(q)//rows*rows].reshape(-1, rows).mean(axis=1) for q in level]
         return Outcome({"riemann": [row | {"wiggles": wiggles(*mean)}]})
 
 
@@ -120,13 +123,15 @@ class SmoothFlow(Case):
     def run(self, report: Report, folder: Path) -> Outcome:
         scene = SCENES[self.scene](self.rows)
         made, (times, unit) = ready(scene, self.method), duration(scene)
-        place = made.method.x
-        known = answer(scene, place)
-        exact = np.stack([known.get(name, np.zeros(len(place))) for name in ("vx", "vy")], axis=1)
-        fastest = np.abs(exact).max() if known else 1.0
+        known = answer(scene, made.method.x)
+        fastest = max(np.abs(known[name]).max() for name in ("vx", "vy") if name in known) if known else 1.0
 
         def look(at: Fields) -> float:
-            return float(np.sqrt(((at.v - exact)**2).mean())/fastest) if known else kinetic_energy(at)
+            if not known:
+                return kinetic_energy(at)
+            there = answer(scene, at.x)
+            exact = np.stack([there.get(name, np.zeros(len(at.x))) for name in ("vx", "vy")], axis=1)
+            return float(np.sqrt(((at.v - exact)**2).mean())/fastest)
         value = followed(made, times*unit, SAMPLES, look, report).seen[-1]
         return Outcome({"smooth_flows": [{"scene": self.scene, "method": self.method, "rows": self.rows,
                                           "value": value}]})
@@ -137,7 +142,8 @@ def cases() -> Iterator[Case]:
     for method, problem in product(STABLE, PROBLEMS):
         for cells in {"Sod": (50, 100, 200)}.get(problem, (100,)):
             for seed in range(1, 4 if "lattice" not in method and cells == 100 else 2):
-                yield Riemann(method=method, problem=problem, cells=cells, seed=seed)
+                yield Riemann(method=method, problem=problem, cells=cells, seed=seed,
+                              rows=ROOMY if method == STABLE[2] else HEIGHT)
     for scene, rows, names in SMOOTH:
         for count, name in product(rows, names):
             yield from (SmoothFlow(method=method, scene=scene, rows=count) for method in (name, PAIRS[name]))
