@@ -12,8 +12,9 @@ from continuum.sides import Periodic, Plate
 from particles.integral.carried import follow
 from particles.integral.entropy_fluxes import Dissipation, Logarithmic, MeanPressure
 from particles.integral.exchange import Listing, Pressure
-from particles.integral.moving_stable import Point, StableDelaunay
+from particles.integral.moving_stable import StableDelaunay
 from particles.integral.positive import SLOPES, switched
+from particles.integral.stable_rings import Point
 from particles.pairs import Faces, sweep
 from particles.run import Plan, run
 from particles.threads import Threads
