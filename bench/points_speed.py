@@ -115,6 +115,8 @@ def main() -> None:
              "moving points, a step": closed("moving"),
              "moving points, a step, open faces": closed("moving-open-faces"),
              "moving delaunay, a step": step(*ready(SCENE, "moving-delaunay")[:2], ahead=0),
+             "moving delaunay, entropy-stable, a step":
+                 step(*ready(SCENE, "moving-delaunay-entropy-stable")[:2], ahead=0),
              **parts_of_a_step(),
              "moving, plain bracket": bracket("moving-literal-printed-heat"),
              "moving, plain bracket, mended": bracket("moving-literal"),

@@ -24,6 +24,7 @@ from particles.integral.edges import between_plates
 from particles.integral.entropy_stable import StableLayer
 from particles.integral.layer import Driven, Layer
 from particles.integral.moving_delaunay import MovingDelaunay
+from particles.integral.moving_stable import StableDelaunay
 from particles.integral.points import jittered, lattice
 from particles.integral.rings import rings
 from particles.integral.rr98_moving import Drift
@@ -46,14 +47,16 @@ INSIDE = dict(zip(("edges", "beyond"), between_plates(renormalised, SQUARE.x, CO
                   strict=True),
               x=SQUARE.x, T_plates=(1.2, 0.8), g=0.01, **FLUID)
 
+CARRIED = {"x": SQUARE.x, "rings": rings(SQUARE.x, BOX, (False, False)), "held": held(np.array([0]))}
+
 #: methods on points that stay, and on points that move: state(rho, v, T), state(x, rho, v, T)
 FIXED = {"dih": Dih(edges=EDGES, **FLUID), "layer": Layer(**INSIDE),
          "stable": StableLayer(**{**INSIDE, "eos": IdealGas()}),
          "thermal": Thermal(edges=EDGES, k=1e-3, seed=1, **FLUID),
          "stream": Stream(x=SQUARE.x, edges=EDGES, held=held(np.array([0])), **FLUID),
          "sheared": Sheared(counts=BOX, weight=Lucy.of(h=2.0), rate=0.1, **FLUID), "driven": Driven(**INSIDE),
-         "moving-delaunay": MovingDelaunay(x=SQUARE.x, rings=rings(SQUARE.x, BOX, (False, False)),
-                                           held=held(np.array([0])), **FLUID)}
+         "moving-delaunay": MovingDelaunay(**CARRIED, **FLUID),
+         "moving-stable": StableDelaunay(**CARRIED, **{**FLUID, "eos": IdealGas()})}
 MOVING = {**{f"rr98-{name}": Drift(motion=motion, **EVERYWHERE) for name, motion in DRIFTS.items()},
           **{f"plain-{name}": kind(box=BOX, weight=WendlandC2.of(h=2.9), **FLUID) for name,
              kind in MOTIONS.items()},

@@ -21,7 +21,11 @@ STILL = CALM**(1/STEEP)
 
 
 class Logarithmic(NamedTuple):
-    """m = S.{v} rho_ln, which carries {v} and c_v/(1/T)_ln + v_a.v_b/2    [Chandrashekar 2013]"""
+    """m = S.{w - v} rho_ln comes in, with {v} and c_v/(1/T)_ln + v_a.v_b/2    [Chandrashekar 2013]
+
+    With q = d(-rho s)/d(rho, rho v, eps), U_ln = rho_ln (1, {v}, ..) has Dq.U_ln = D(rho), and a volume that
+    grows by S.{w} takes -rho s - q.U = -rho times it: of an edge that moves at {w} both add up to nothing.
+    """
     eos: Any
 
 
@@ -59,8 +63,8 @@ log_means.of(IdealGas)(lambda eos, a, b: (0.5*(a.rho + b.rho)/over_mean(a.rho, b
 @pair_term(Logarithmic, 4)
 def _(term, a, b, ab):
     rho, e = log_means(term.eos, a, b)
-    m = rho*(ab.sx*(a.vx + b.vx) + ab.sy*(a.vy + b.vy))
-    return -m, -0.5*m*(a.vx + b.vx), -0.5*m*(a.vy + b.vy), -m*(e + 0.5*(a.vx*b.vx + a.vy*b.vy))
+    m = rho*(ab.sx*(a.rx + b.rx) + ab.sy*(a.ry + b.ry))
+    return m, 0.5*m*(a.vx + b.vx), 0.5*m*(a.vy + b.vy), m*(e + 0.5*(a.vx*b.vx + a.vy*b.vy))
 
 
 @pair_term(MeanPressure, 4)
@@ -119,8 +123,10 @@ def waves(eos, a, b, ab, P, r, by_x, by_y):
     of_t, _ = bend(dut, v0*nx - u0*ny, v1*nx - u1*ny, dut)
     of_s, s_line = bend(drho - dP/c2, r0 - P0/c2, r1 - P1/c2, drho - (b.P - a.P)/c2)
     sigma = min(1.0, STEEPEST*abs(P0 + P1 - 4*dP)/(a.P + b.P))
-    flow, fast = np.sqrt(u*u + v*v), fastest(a, b, ab)
-    slow, jump = size*np.sqrt(un*un + (SLOW*flow)**2), drho/rho + dbeta*e       # of -s
+    rx, ry = 0.5*(a.rx + b.rx), 0.5*(a.ry + b.ry)
+    flow, fast = np.sqrt(rx*rx + ry*ry), fastest(a, b, ab)
+    slow = size*np.sqrt((rx*nx + ry*ny)**2 + (SLOW*flow)**2)
+    jump = drho/rho + dbeta*e       # of -s
     sound = fast*max(of_P, sigma*P_line)*rho/gamma*(jump - c2*cv*dbeta)
     across = fast*min(1.0, max(flow/np.sqrt(c2), sigma))*max(of_n, sigma*n_line)*mean*dun
     heat, along = slow*max(of_s, sigma*s_line)*rho*(gamma - 1)/gamma*jump, slow*of_t*mean*dut
@@ -130,7 +136,14 @@ def waves(eos, a, b, ab, P, r, by_x, by_y):
 
 
 @formula
+def against(a, b, ab):
+    """S/2.(v_a - {w}) and S/2.(v_b - {w}): of both ends against their edge, from r = w - v."""
+    apart, both = ab.sx*(b.vx - a.vx) + ab.sy*(b.vy - a.vy), ab.sx*(a.rx + b.rx) + ab.sy*(a.ry + b.ry)
+    return -0.5*(apart + both), 0.5*(apart - both)
+
+
+@formula
 def fastest(a, b, ab):
-    """|S|/2 (|v.n| + c) of the faster one of two points."""
-    size = np.sqrt(ab.sx*ab.sx + ab.sy*ab.sy)
-    return max(abs(ab.sx*a.vx + ab.sy*a.vy) + size*a.c, abs(ab.sx*b.vx + ab.sy*b.vy) + size*b.c)
+    """|S|/2 (|(v - {w}).n| + c) of the faster one of two points."""
+    size, (one, other) = np.sqrt(ab.sx*ab.sx + ab.sy*ab.sy), against(a, b, ab)
+    return max(abs(one) + size*a.c, abs(other) + size*b.c)

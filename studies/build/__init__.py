@@ -61,7 +61,7 @@ def prefixed(family: str, variants: Mapping[str, Any], usual: str) -> dict[str, 
 
 FAMILIES = (prefixed("grid", grid.FORMS, "flux-form"),
             prefixed("spam", spam.VARIANTS | spam.TODAY, "printed"), fixed.SCHEMES, moving.CARRIAGES,
-            moving.MOTIONS, moving.DRIFT_MOTIONS)
+            moving.STABLE, moving.MOTIONS, moving.DRIFT_MOTIONS)
 #: name -> variant; tables have the family in another column
 METHODS = {name: variant for family in FAMILIES for name, variant in family.items()}
 #: the best known of each family

@@ -15,6 +15,7 @@ from particles.integral.closed_faces import FaceSums, Ingredients, Moving
 from particles.integral.drifts import DRIFTS, ConstantMassDrift, OverPairs
 from particles.integral.exchange import PRINTED
 from particles.integral.moving_delaunay import SHIFT, MovingDelaunay, RingSums
+from particles.integral.moving_stable import StableDelaunay
 from particles.integral.points import lattice
 from particles.integral.rings import rings, spokes
 from particles.integral.rr98_moving import Drift, Drifts
@@ -184,6 +185,17 @@ CARRIAGES = {one.name: one for one in (
     Carriage("moving-delaunay-half-step", of_limit=0.45),
     Carriage("moving-delaunay-quarter-step", of_limit=0.225),
 )}
+
+
+class StableCarriage(Carriage):
+    """The same with a flux that survives."""
+
+    def ready(self, scene: Any, seed: int = 1, fields: tuple | None = None) -> Ready:
+        made = super().ready(scene, seed, fields)
+        return made._replace(method=StableDelaunay(**vars(made.method)))
+
+
+STABLE = {one.name: one for one in (StableCarriage("moving-delaunay-entropy-stable"),)}
 
 
 NONE_HELD = Held(np.empty(0, int), np.empty((0, 2)), np.empty(0), np.empty(0, int), np.empty(0))

@@ -1,8 +1,9 @@
 """Does a method come through a hard case, and with which K, flow and mass? Points, and grids beside them."""
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from math import ceil
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -13,6 +14,7 @@ from continuum.gas.solve import DivergedError, Solution
 from continuum.gas.solve import run as march
 from continuum.steady import Time
 from particles.fields import Fields, kinetic_energy
+from particles.plan import Quantity
 from particles.run import Divergence, Plan, run
 from studies.build.names import START_ENERGY
 from studies.build.setting import Ready
@@ -29,13 +31,16 @@ Row = dict[str, float]
 
 
 class Course(NamedTuple):
-    """What was seen, at the start and after each sample, (samples + 1, numbers); part of the time reached."""
+    """What was seen, at the start and after each sample, (samples + 1, numbers); part of the time reached;
+    what was watched at each sample, of a run that has come to its end."""
     seen: np.ndarray
     reached: float = 1.0
+    watched: Mapping[str, list[float]] = MappingProxyType({})
 
 
-def followed(ready: Ready, time: float, samples: int, look: Look, report: Report | None = None) -> Course:
-    """Any method; `look` takes its fields."""
+def followed(ready: Ready, time: float, samples: int, look: Look, report: Report | None = None,
+             watch: Mapping[str, Quantity] = MappingProxyType({})) -> Course:
+    """Any method; `look` takes its fields, quantities to `watch` its sums and its state."""
     method, seen = ready.method, [look(ready.method.fields(ready.start))]
 
     def see(sums: Any, state: np.ndarray) -> float:
@@ -43,12 +48,12 @@ def followed(ready: Ready, time: float, samples: int, look: Look, report: Report
         return 0.0
     every = ceil(time/ready.dt/samples)
     steps = every*samples
-    plan = Plan(dt=time/steps, steps=steps, series={"seen": see}, every=every)
+    plan = Plan(dt=time/steps, steps=steps, series={"seen": see, **watch}, every=every)
     try:
-        run(method, ready.start, plan, report)
+        done = run(method, ready.start, plan, report)
     except Divergence as error:
         return Course(np.array(seen), error.step/steps)
-    return Course(np.array(seen))
+    return Course(np.array(seen), watched=done.series)
 
 
 def between_plates(start: NodeFields, time: float, samples: int, report: Report,
@@ -170,7 +175,7 @@ class HardOnGrid(Case):
 def growth(scene: Any, variant: Any, report: Report) -> Row:
     """The rate of the wave on the shear flow."""
     time = GROWN/RATE
-    seen, reached = followed(variant.ready(Open(scene)), time, INSTANTS, amplitude, report)
+    seen, reached, _ = followed(variant.ready(Open(scene)), time, INSTANTS, amplitude, report)
     row = {"predicted": RATE, "reached": reached}
     if reached < 1:
         return row
@@ -185,7 +190,7 @@ class Kept(NamedTuple):
     time: float
 
     def __call__(self, scene: Any, variant: Any, report: Report) -> Row:
-        seen, reached = followed(variant.ready(Open(scene)), self.time, SAMPLES, self.look, report)
+        seen, reached, _ = followed(variant.ready(Open(scene)), self.time, SAMPLES, self.look, report)
         left = seen[round(LATE*len(seen)):].mean()/seen[0] if reached == 1 else np.nan
         return {"predicted": self.predicted, "measured": left, "measured_err": 0.0, "reached": reached}
 

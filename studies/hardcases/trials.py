@@ -1,19 +1,20 @@
 """All methods in all cases of `columns`: two sizes, three starts where chance places points, two steps."""
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from particles.fields import Fields
+from particles.integral.positive import switched
 from studies.build import ready, variant
 from studies.build.answers import of_one_mass, with_rows
 from studies.build.scenes import Start
 from studies.build.setting import Ready
 from studies.build.spam import Variant
 from studies.hardcases.columns import COLUMNS
-from studies.hardcases.robust import STABLE
+from studies.hardcases.robust import ROOMY, SAMPLES, STABLE, Strip
 from studies.hardcases.survival import followed
 from studies.kit.case import Case, Outcome, Report
 
@@ -22,6 +23,9 @@ WITHOUT = ("grid", "fixed-lattice", "fixed-jittered-delaunay", "moving-delaunay"
            "spam-corrected")
 METHODS = (*WITHOUT, *STABLE)
 SEEDS, STEPS = (1, 2, 3), (1.0, 0.5)
+#: of the flux at SAMPLES instants; the last two are counts so far
+WATCHED = {"switched": switched, "halved": lambda sums, state: sums.refused,
+           "limited": lambda sums, state: sums.limited}
 #: method, column -> one more size
 LARGER = {**{(name, "Sod"): 200 for name in STABLE}, (STABLE[0], "Mach 10"): 400}
 
@@ -81,15 +85,23 @@ class Trial(Case):
 
         def look(at: Fields) -> None:
             seen.append(at._make(map(np.copy, at)))     # type: ignore[call-arg, arg-type]
-        row["reached"] = followed(made, scene.time, 1, look, report).reached
-        return Outcome({"trials": [row | (scene.seen(*seen) if row["reached"] == 1 else {})]})
+        watch: dict[str, Any] = WATCHED if self.method in STABLE else {}
+        samples = SAMPLES if watch else 1
+        course = followed(made, scene.time, samples, look, report, watch)
+        row["reached"] = course.reached
+        if watch and course.watched:
+            share, *counts = (course.watched[name] for name in WATCHED)
+            row |= dict(zip(WATCHED, (float(np.mean(share)), *(count[-1] for count in counts))))
+        return Outcome({"trials": [row | (scene.seen(seen[0], seen[-1]) if course.reached == 1 else {})]})
 
 
 def cases() -> Iterator[Case]:
     """Starts and steps at the smaller size, one each at others."""
     for case, column in COLUMNS.items():
         for method in column.only or METHODS:
-            common: dict[str, Any] = {"case": case, "scene": column.scene, "method": method}
+            roomy = method == STABLE[-1] and isinstance(column.scene, Strip)
+            scene = replace(column.scene, L=ROOMY) if roomy else column.scene
+            common: dict[str, Any] = {"case": case, "scene": scene, "method": method}
             small, *large = *column.sizes, *([LARGER[method, case]] if (method, case) in LARGER else [])
             chance = "lattice" not in method and method != "grid"
             for seed in SEEDS[:3 if chance and not column.only else 1]:

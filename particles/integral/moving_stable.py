@@ -1,0 +1,211 @@
+"""Points that move with their triangulation and a flux that survives: `entropy_fluxes`, `positive` steps.
+
+What passes an edge that moves at {w} passes it at r = w - v, and so the terms keep the sum of V rho s as
+they do on points that stay. Steps are made in parts, as short as it takes, in Python over compiled loops.
+"""
+from dataclasses import dataclass
+from math import ceil
+from typing import Any
+
+import numpy as np
+
+from continuum.jit import check_formulas
+from particles.integral import march
+from particles.integral.carried import EXCHANGED, complete, follow, heat, hold, read, receive
+from particles.integral.entropy_fluxes import Dissipation, Logarithmic, MeanPressure, log_means
+from particles.integral.exchange import Listing
+from particles.integral.fixed import NO_IMAGES, check_number, first_invalid
+from particles.integral.moving_delaunay import MovingDelaunay, RingSums
+from particles.integral.positive import COURANT, LEAST, OLD, PART, Limits, Slopes, divided
+from particles.integral.rings import remade
+from particles.integral.stable_rings import Point, _along, _at_sides, _sound, _turned
+from particles.pairs import Faces, sweep
+from particles.threads import Threads
+
+#: of a state: mass, momentum, energy, in the order of densities
+DENSITIES = [6, 4, 5, 8]
+
+
+class StableRings(Limits, RingSums):
+    """The compiled sums, stepped in Python. slowed : of parts that were halved, those where a triangle would
+    have turned over, whose points then go on together."""
+    method: "StableDelaunay"
+
+    def __init__(self, method: "StableDelaunay", threads: Threads):
+        super().__init__(method, threads)
+        self.set_limits(method.flow)
+        self.images, self.slowed, self.turned = NO_IMAGES, 0, -1
+        self.total = np.zeros((self.n, 4))
+        self.points = np.zeros(self.n, Point)
+        self.bench = self.bench._replace(points=self.points)
+        self.fluid = self.fluid._replace(terms=Listing((*method.transport, *method.flow)))
+
+    def reorder(self, order: np.ndarray) -> None:
+        super().reorder(order)
+        self.widen()
+
+    def widen(self) -> None:
+        """Give edges room for what leads along them."""
+        edges = self.rings.edges
+        self.edges = Faces(*edges[:6], *np.zeros((2, len(edges.near))))
+        self.rings = self.rings._replace(edges=self.edges)  # type: ignore[arg-type]
+
+    def try_out(self, now: Any) -> None:
+        """No step: loads the code."""
+        self.look_at(now.state)
+
+    def look_at(self, state: np.ndarray) -> None:
+        """What held points receive now, on the triangulation where points are."""
+        self.meet(state[:2])
+        self.look(state)
+        receive(self.fluid, self.rings, self.held, state, self.bench, self.received)
+
+    def meet(self, x: np.ndarray) -> None:
+        """Edges of points (2, n)."""
+        bench = self.bench
+        march.edges_of(self.threads, self.n, x, self.rings, bench.V, bench.pull, bench.spread, bench.crossed)
+        self.threads(_along, self.n, x, self.rings)
+        self.V = bench.V.copy()
+
+    def look(self, y: np.ndarray) -> None:
+        """Fields of points and their slopes."""
+        n, eos, points, rings = self.n, self.method.eos, self.points, self.rings
+        read(self.threads, n, y, eos, self.method.law, points)
+        self.threads(_sound, n, eos, y, points)
+        self.threads(sweep, n, Slopes(), points, self.edges, self.slopes)
+        self.threads(_at_sides, n, Slopes(), points, rings, self.slopes)
+        self.threads(divided, n, self.slopes, self.V, points)
+
+    def longest(self, y: np.ndarray) -> float:
+        """The step that is known to keep a state positive that was looked at; nan on no triangulation."""
+        sound = (self.slopes[:, 8] - self.bench.flow/2)/y[7]
+        return float(1/PART/np.max(sound/COURANT + self.bench.spread*self.chi))
+
+    def march(self, state: np.ndarray, dt: float, steps: int) -> None:
+        """So many steps. Raises FloatingPointError: no part of one leaves triangles, densities and energies
+        positive."""
+        for _ in range(steps):
+            left, most = dt, self.guess(state, dt)
+            while left > 0:
+                h = left/ceil(left/most)
+                before = state.copy(), self.rings, [q.copy() for q in changing(self.rings)]
+                done, most = self.part(state, h)
+                if done:
+                    left -= h
+                    continue
+                self.go_back(state, *before)
+                if not most > LEAST*dt:
+                    raise FloatingPointError(self.end(state, h))
+        self.flips += int(self.bench.flipped[0])
+        self.bench.flipped[0] = 0
+
+    def guess(self, y: np.ndarray, dt: float) -> float:
+        """The longest step from here, on edges of points as they are; the whole one if none is known."""
+        self.meet(y[:2])
+        self.look(y)
+        follow(self.threads, self.n, self.fluid, self.rings, self.bench)
+        longest = self.longest(y)
+        return longest if longest > 0 else dt
+
+    def part(self, y: np.ndarray, h: float) -> tuple[bool, float]:
+        """Go on by h: (done, how long the next one may be)."""
+        self.lost, self.turned = self.n, self.flip(y, h)
+        if self.turned >= 0 or not self.sound(y):
+            return False, h/2
+        hold(self.method.eos, self.held, y)
+        self.look(y)
+        follow(self.threads, self.n, self.fluid, self.rings, self.bench)
+        longest, shift = self.longest(y), self.fluid.shift*march.fastest(self.bench.strain, self.bench.free)
+        if h*COURANT > longest:
+            return False, longest
+        start = y[EXCHANGED].copy()
+        for number, old in enumerate(OLD):
+            if number:
+                self.look(y)
+                complete(self.threads, self.n, 1.0, self.rings, self.bench)
+            heat(self.held, 1.0, self.bench.once)
+            if not self.euler(y, PART*h):
+                return False, h/2
+            y[EXCHANGED] = old*start + (1 - old)*y[EXCHANGED]
+            hold(self.method.eos, self.held, y)
+        march.move(self.threads, self.n, h, shift, self.bench, y)
+        return True, longest
+
+    def flip(self, y: np.ndarray, h: float) -> int:
+        """Edges halfway through a step, Delaunay's; a point whose triangle turns over by its end, or -1."""
+        bench, full, turned = self.bench, 0, -1
+        march.halfway(self.threads, self.n, h, y, bench.middle)
+        while full >= 0:
+            self.meet(bench.middle)
+            full, turned = march.mend(self.method.eos, y, self.rings, bench)
+            if full >= 0:
+                self.rings = remade(self.rings)
+                self.widen()
+        self.threads(_along, self.n, bench.middle, self.rings)
+        self.V = bench.V.copy()
+        if turned < 0:
+            turned = max(self.threads(_turned, self.n, y[:2] + h*y[2:4], self.rings))
+        return int(turned)
+
+    def sound(self, y: np.ndarray) -> bool:
+        """Did flips leave volumes, densities and energies positive?"""
+        self.lost = first_invalid(y[DENSITIES]/y[7], self.method.eos) if (y[7] > 0).all() else y[7].argmin()
+        return bool(self.lost == self.n)
+
+    def euler(self, y: np.ndarray, h: float) -> bool:
+        """One step of what is exchanged, places apart; False: not even Rusanov's flux leaves rho, e > 0."""
+        bench, g = self.bench, self.method.g
+        self.threads(sweep, self.n, self.fluid.terms, self.points, self.edges, self.total)
+        (m, px, py, E), once = self.total.T, bench.once.T
+        before = y[DENSITIES]/y[7]
+        y[EXCHANGED] += h*np.stack([px + once[0], py + once[1] - g*y[6], m, bench.flow, E + once[2] - g*y[5]])
+        self.lost = self.n if (y[7] > 0).all() else int(y[7].argmin())
+        less = self.less(before, y[DENSITIES]/y[7], h/y[7]) if self.lost == self.n else None
+        if less is None:
+            return False
+        y[DENSITIES] += y[7]*less
+        return True
+
+    def go_back(self, state: np.ndarray, before: np.ndarray, rings: Any, parts: list[np.ndarray]) -> None:
+        """To where a part of a step began; points of a triangle that would turn over then go on together."""
+        state[:], self.rings, self.edges = before, rings, rings.edges
+        for array, old in zip(changing(rings), parts):
+            array[:] = old
+        self.refused += self.turned >= 0 or self.lost < self.n
+        if self.turned >= 0:
+            first = self.edges.first[self.turned]
+            near = self.edges.near[first:first + self.edges.taken[self.turned]]
+            ring = np.array([self.turned, *near.astype(int)])
+            state[2:4, ring[self.bench.free[ring]]] = state[2:4, ring].mean(axis=1, keepdims=True)
+            self.slowed += 1
+
+    def end(self, state: np.ndarray, h: float) -> str:
+        """Why it cannot go on, with the point, its state and its edges."""
+        i = self.turned if self.turned >= 0 else self.lost
+        (x, y), V = state[:2, i], state[7, i]
+        return (f"no step of {h:.3g} or more leaves the point at ({x:.4g}, {y:.4g}) triangles, density and "
+                f"energy that are positive: m = {state[6, i]:.4g}, V = {V:.4g}, E = {state[8, i]:.4g}, "
+                f"{self.edges.taken[i]} edges; take more rows, or a smoother start")
+
+
+def changing(rings: Any) -> tuple[np.ndarray, ...]:
+    """What flips write."""
+    return rings.edges.first, rings.edges.taken, rings.edges.near, rings.room, rings.end
+
+
+@dataclass(frozen=True, kw_only=True)
+class StableDelaunay(MovingDelaunay):
+    """A fluid with an entropy on such points. flow : listed terms in place of what crosses edges; the mean
+    pressure, as it is nearest to `carried.Crossing`."""
+    flow: tuple = ()
+
+    def __post_init__(self):
+        super().__post_init__()
+        check_formulas(self.eos, log_means)
+        usual = Logarithmic(self.eos), MeanPressure(self.eos), Dissipation(self.eos)
+        object.__setattr__(self, "flow", self.flow or usual)
+
+    def start(self, n: int, threads: Threads) -> StableRings:
+        """The sums over the triangulation. Raises ValueError: a state of another number of points."""
+        check_number(n, len(self.x))
+        return StableRings(self, threads)

@@ -1,0 +1,162 @@
+"""Euler steps over edges that leave rho, e > 0, whatever is listed in place of convection and pressure.
+
+One by Rusanov's flux leaves them so if it is short enough [Perthame & Shu 1996], also on edges that move.
+Where one by listed terms does not, edges leave out what takes more than a share of either point's, beyond
+Rusanov's. Points have r = w - v, eps, the speed of sound c, and `MORE`.
+"""
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from continuum.jit import formula, jit
+from particles.integral.entropy_fluxes import Dissipation, against, fastest
+from particles.integral.exchange import Listing
+from particles.integral.fixed import first_invalid, inner
+from particles.lists import Ghosts
+from particles.pairs import Faces, pair_term, rate, sweep
+from particles.threads import Threads
+
+COURANT, KEPT = 0.9, 0.1        # part of the proven step; of a low-order density or energy that is kept
+LEAST = 1e-6                    # part of a step that halving goes down to
+#: Euler steps of a part of a step each, and the share of the start in what each leaves: third order, and what
+#: they keep one by one they keep together    [Kraaijevanger 1991]
+PART, OLD = 0.5, (0.0, 0.0, 2/3, 0.0)
+
+SLOPES = ("rho_x", "rho_y", "P_x", "P_y", "u_x", "u_y", "v_x", "v_y")
+#: density, momentum and energy by Rusanov's flux; a step per volume and edge
+LOW = ("low_rho", "low_px", "low_py", "low_eps", "room")
+#: what these terms read and others do not: slopes, the speed of sound, gravity of images
+MORE = (*SLOPES, "c", "g", *LOW)
+
+
+class Slopes(NamedTuple):
+    """V grad of rho, P and v by differences; |S|/2 (|v.n| + c)."""
+
+
+class Excess(NamedTuple):
+    """What listed terms exchange beyond Rusanov's flux."""
+    terms: Listing
+
+
+class Limited(NamedTuple):
+    """What an edge leaves out of it    [Zalesak 1979; Guermond & Popov 2017]"""
+    excess: Excess
+
+
+@pair_term(Slopes, 9)
+def _(term, a, b, ab):
+    x, y, rho, P, u, v = ab.sx, ab.sy, b.rho - a.rho, b.P + b.hydro - a.P, b.vx - a.vx, b.vy - a.vy
+    return x*rho, y*rho, x*P, y*P, x*u, y*u, x*v, y*v, fastest(a, b, ab)
+
+
+@pair_term(Excess, 4)
+def _(term, a, b, ab):
+    most, P, (to_a, to_b) = fastest(a, b, ab), b.P - a.P + b.hydro, against(a, b, ab)
+    one, other = to_a + most, to_b - most
+    work = (a.P + b.hydro)*(ab.sx*a.vx + ab.sy*a.vy) + b.P*(ab.sx*b.vx + ab.sy*b.vy)
+    m, px, py, e = rate(term.terms, a, b, ab)
+    return (m + one*a.rho + other*b.rho, px + one*a.rho*a.vx + other*b.rho*b.vx + ab.sx*P,
+            py + one*a.rho*a.vy + other*b.rho*b.vy + ab.sy*P, e + one*a.eps + other*b.eps + work)
+
+
+@formula
+def share(a, rho, px, py, eps):
+    """The largest part <= 1 of a change that leaves KEPT of a point's low-order density and energy."""
+    part = min(1.0, (1 - KEPT)*a.low_rho/max(-rho, 1e-300))
+    heat = a.low_eps - (a.low_px*a.low_px + a.low_py*a.low_py)/(2*a.low_rho)
+    # rho (eps - KEPT heat) - p^2/2 is a quadratic of the part, positive at 0
+    two, zero = rho*eps - 0.5*(px*px + py*py), (1 - KEPT)*a.low_rho*heat
+    one = a.low_rho*eps + rho*(a.low_eps - KEPT*heat) - a.low_px*px - a.low_py*py
+    inside = one*one - 4*two*zero
+    turn = np.sqrt(max(inside, 0.0)) - one
+    return min(part, 2*zero/turn) if inside >= 0 and turn > 0 else part
+
+
+@pair_term(Limited, 4)
+def _(term, a, b, ab):
+    m, px, py, e = rate(term.excess, a, b, ab)
+    less = min(share(a, a.room*m, a.room*px, a.room*py, a.room*e),
+               share(b, -b.room*m, -b.room*px, -b.room*py, -b.room*e)) - 1
+    return less*m, less*px, less*py, less*e
+
+
+class Switched(NamedTuple):
+    """Does an edge dissipate?"""
+    term: Dissipation
+
+
+@pair_term(Switched, 1)
+def _(term, a, b, ab):
+    m, px, py, e = rate(term.term, a, b, ab)
+    return (1.0 if m != 0 or px != 0 or py != 0 or e != 0 else 0.0,)
+
+
+def switched(sums: Any, state: np.ndarray) -> float:
+    """The share of edges that dissipate, of points looked at: a quantity of a run."""
+    term = next((one for one in sums.method.flow if isinstance(one, Dissipation)), None)
+    if term is None:
+        return 0.0
+    count, edges = np.zeros((sums.n, 1)), sums.edges
+    sums.threads(sweep, sums.n, Switched(term), sums.points, edges, count)
+    return float(count.sum()/edges.taken.sum())
+
+
+class Limits:
+    """Euler steps of points (n,) over edges that leave rho, e > 0. limited : number of those with limits;
+    refused : of parts of steps that were halved, the last one by point `lost`."""
+    n: int
+    method: Any
+    threads: Threads
+    points: np.ndarray
+    edges: Faces
+    images: Ghosts
+
+    def set_limits(self, flow: tuple) -> None:
+        """Room, for the listed terms that limits are for."""
+        self.refused, self.limited, self.lost = 0, 0, self.n
+        self.excess, self.gain = Excess(Listing(flow)), np.zeros((self.n, 4))
+        self.slopes = np.zeros((self.n, 9))
+
+    @property
+    def chi(self) -> np.ndarray:
+        """Diffusivity of points."""
+        points = self.points[:self.n]
+        return np.maximum(points["eta"], points["k"]/self.method.eos.cv)/points["rho"]
+
+    def less(self, before: np.ndarray, after: np.ndarray, per_V: np.ndarray) -> Any:
+        """What a step, per volume (n,), from densities (4, n) to those after may not take, to be added again;
+        None if not even Rusanov's flux leaves rho, e > 0."""
+        n, points, edges = self.n, self.points, self.edges
+        if not sum(self.threads(fallen, n, before, after)):
+            return 0.0
+        self.limited += 1
+        self.threads(sweep, n, self.excess, points, edges, self.gain)
+        low = after - per_V*self.gain.T
+        self.lost = first_invalid(low, self.method.eos)
+        if self.lost < n:
+            return None
+        for name, values in zip(LOW, (*low, per_V*edges.taken)):
+            points[name][:n] = values
+        self.images.fill(points, tuple(set(LOW) - {"low_py"}), ("low_py",))
+        self.threads(sweep, n, Limited(self.excess), points, edges, self.gain)
+        return per_V*self.gain.T
+
+
+@jit
+def divided(first, last, slopes, V, points):
+    """Slopes from what differences sum up to."""
+    for i in range(first, last):
+        a, q, f = points[i], slopes[i], 1/V[i]
+        a.rho_x, a.rho_y, a.P_x, a.P_y = f*q[0], f*q[1], f*q[2], f*q[3]
+        a.u_x, a.u_y, a.v_x, a.v_y = f*q[4], f*q[5], f*q[6], f*q[7]
+
+
+@jit
+def fallen(first, last, before, after):
+    """Number of points whose density or internal energy fell below a share of what it was."""
+    count = 0
+    for i in range(first, last):
+        rho, e = inner(before[0, i], before[1, i], before[2, i], before[3, i])
+        new, later = inner(after[0, i], after[1, i], after[2, i], after[3, i])
+        count += not (new > KEPT*rho and new*later > KEPT*rho*e)
+    return count

@@ -1,0 +1,167 @@
+"""A flux that survives on points that move: what its terms keep on edges that move, its steps, its limits."""
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from test_entropy_stable import entropy_variables
+
+from continuum.domain import Domain
+from continuum.fluid import ConstEta, DenseFluid, IdealGas
+from continuum.scene import RayleighBenard
+from continuum.sides import Periodic, Plate
+from particles.integral.carried import follow
+from particles.integral.entropy_fluxes import Dissipation, Logarithmic, MeanPressure
+from particles.integral.exchange import Listing, Pressure
+from particles.integral.moving_stable import StableDelaunay
+from particles.integral.positive import SLOPES, switched
+from particles.integral.stable_rings import Point
+from particles.pairs import Faces, sweep
+from particles.run import Plan, run
+from particles.threads import Threads
+from studies.build import SCENES, ready, variant
+from studies.build.measure import heat_at_rest
+
+GAS, NAME, ONE = IdealGas(2.5), "moving-delaunay-entropy-stable", Threads(1)
+EX, EC, M = (Logarithmic(GAS), Pressure(GAS)), (Logarithmic(GAS), MeanPressure(GAS)), Dissipation(GAS)
+PAIRS = 500
+
+
+def two_by_two():
+    """Pairs of points in any two states that move in any way, on edges of their own: (points, edges)."""
+    draw, points = np.random.default_rng(1), np.zeros(2*PAIRS, Point)
+    points["rho"], points["T"] = np.exp(2*draw.normal(size=(2, 2*PAIRS)))
+    for name in ("vx", "vy", "rx", "ry", *SLOPES):
+        points[name] = 3*draw.normal(size=2*PAIRS)
+    points["P"] = points["rho"]*points["T"]
+    points["c"] = np.sqrt(1.4*points["T"])
+    turned = np.tile([1.0, -1.0], PAIRS)
+    sx, sy, dx, dy = np.repeat(draw.normal(size=(4, PAIRS)), 2, axis=1)*turned
+    n = np.arange(2*PAIRS)
+    return points, Faces(n.astype(np.uint64), np.ones(len(n), np.uint32), (n ^ 1).astype(np.uint32), sx, sy,
+                         0*sx, dx, dy)
+
+
+def of_pairs(points, *names):
+    """Of all first points and of all second ones, (fields, 2, PAIRS)."""
+    return np.array([points[name].reshape(-1, 2).T for name in names])
+
+
+def produced_by_pairs(*terms):
+    """(What pairs add to sum -V rho s, its size; S.D(rho v) - S.{w} D(rho), which closed edges sum away)."""
+    points, edges = two_by_two()
+    points["P"] *= isinstance(terms[0], Dissipation)    # others leave out a row's own, as closed edges may
+    gain = np.zeros((len(points), 4))
+    sweep(0, len(points), Listing(terms), points, edges, gain)
+    assert np.allclose(gain[::2], -gain[1::2], rtol=1e-11)
+    rho, T, vx, vy, rx, ry = of_pairs(points, "rho", "T", "vx", "vy", "rx", "ry")
+    v, S = np.array([vx, vy]), 2*np.array([edges.sx, edges.sy])[:, ::2]
+    parts = entropy_variables(rho, v, T)*gain.T.reshape(4, -1, 2).transpose(0, 2, 1)
+    w = (v + [rx, ry]).mean(axis=1)
+    closing = (S*(rho*v)[:, 1]).sum(axis=0) - (S*(rho*v)[:, 0]).sum(axis=0)
+    return (parts.sum(axis=(0, 1)), np.abs(parts).sum(axis=(0, 1)),
+            closing - (S*w).sum(axis=0)*(rho[1] - rho[0]))
+
+
+@pytest.mark.parametrize("flow", [EX, EC], ids=["crossed", "mean"])
+def test_two_points_that_move_keep_entropy_whatever_their_states(flow):
+    made, size, closing = produced_by_pairs(*flow)
+    assert np.abs((made - closing)/size).max() < 1e-13
+
+
+def test_no_edge_that_moves_destroys_entropy_by_its_dissipation():
+    made, size, _ = produced_by_pairs(M)
+    assert (made <= 1e-13*size).all() and np.median(made/size) < -1e-3
+
+
+def at_random(method, size=1.0, seed=2):
+    """A state of points that differ a hundredfold, and their own velocities at random, too."""
+    draw, n = np.random.default_rng(seed), len(method.x)
+    rho, T = np.exp(size*draw.normal(size=(2, n)))
+    state = method.state(rho, draw.normal(0, 3*size, (n, 2)), T)
+    state[2:4] += size*draw.normal(size=(2, n))*~np.isin(np.arange(n), method.held.which)
+    return state
+
+
+@pytest.mark.parametrize("flow", [EX, EC], ids=["crossed", "mean"])
+def test_a_moving_torus_keeps_entropy_without_dissipation(flow):
+    made = replace(ready(SCENES["taylor-green"](8), NAME).method, eos=GAS, law=ConstEta(0, 0), flow=flow)
+    state = at_random(made)
+    sums = made.start(state.shape[1], ONE)
+    sums.look_at(state)
+    follow(ONE, sums.n, sums.fluid, sums.rings, sums.bench)
+    gain, at = np.zeros((sums.n, 4)), made.fields(state)
+    sweep(0, sums.n, sums.fluid.terms, sums.points, sums.edges, gain)
+    parts = entropy_variables(at.rho, at.v.T, at.T)*gain.T
+    assert abs(parts.sum() - at.rho@sums.bench.flow) < 1e-13*np.abs(parts).sum()
+
+
+@pytest.mark.parametrize("scene, kept", [(SCENES["taylor-green"](8), [4, 5, 6, 7, 8]),
+                                         (RayleighBenard(ra=1e4, L=8.0), [6, 7])], ids=["torus", "plates"])
+def test_no_start_is_too_violent_and_sums_are_kept(scene, kept):
+    """Also through limits and flips, in steps far too long, which are halved."""
+    made = replace(ready(scene, NAME).method, law=ConstEta(0, 0))
+    state = at_random(made)
+    begun, sums = state.copy(), made.start(state.shape[1], ONE)
+    longest = sums.longest
+    sums.longest = lambda y: 10*longest(y)
+    sums.march(state, 0.5, 2)
+    assert sums.flips and sums.limited and sums.refused and not sums.fault(state, np.arange(sums.n))
+    change = (state.sum(axis=1) - begun.sum(axis=1))[kept]
+    assert np.abs(change).max() < 1e-14*np.abs(begun).sum()
+    assert 0.1 < switched(sums, state) <= 1
+
+
+def test_slopes_of_linear_fields_are_exact_on_sides_too():
+    box = Domain(L=8.0, eta=0.1, k=0.1, left=Periodic(), right=Periodic(), bottom=Plate(T=1.0),
+                 top=Plate(T=1.8))
+    made = ready(box, NAME).method
+    y = made.x[:, 1]
+    state = made.state(2 + 0.1*y, np.zeros((len(y), 2)), 1.4 + 0.1*y)
+    sums = made.start(len(y), ONE)
+    sums.look_at(state)
+    assert np.allclose(sums.points["rho_y"], 0.1) and np.allclose(sums.points["rho_x"], 0, atol=1e-13)
+
+
+def vortex(rows, name):
+    """The error of a velocity after a decay."""
+    scene = SCENES["taylor-green"](rows)
+    made, start, dt = ready(scene, name)
+    steps = int(scene.time/dt) + 1
+    at = made.fields(run(made, start, Plan(dt=scene.time/steps, steps=steps)).state)
+    return np.sqrt(np.mean((at.v[:, 0] - scene.answer(at.x)["vx"])**2))
+
+
+def test_a_smooth_flow_is_of_second_order_and_as_without():
+    coarse, fine = vortex(12, NAME), vortex(24, NAME)
+    assert np.log2(coarse/fine) > 1.6
+    assert fine < 1.05*vortex(24, "moving-delaunay")
+
+
+def test_heat_goes_in_below_and_out_above_at_rest():
+    layer = RayleighBenard(ra=100.0, L=8.0)
+    made, start, dt = ready(layer, NAME)
+    done = run(made, start, Plan(dt=dt, steps=1500, series=variant(NAME).series, every=100))
+    through = [done.series[name][-1]/heat_at_rest(layer) for name in ("lower", "upper")]
+    assert through == pytest.approx([1, -1], abs=1e-3)      # what is left of the start
+
+
+def test_a_stream_that_carries_all_changes_nothing():
+    scene = SCENES["taylor-green"](8)
+    made, _, dt = ready(scene, NAME)
+    made = replace(made, law=ConstEta(0, 0))
+    rho, T = np.exp(0.5*np.random.default_rng(3).normal(size=(2, len(made.x))))
+    v = np.zeros_like(made.x)
+    ends = [made.state(rho, v + boost, T) for boost in ([0.0, 0.0], [4.0, 3.0])]
+    for state in ends:
+        made.start(len(rho), ONE).march(state, dt, 20)
+    rest, stream = (made.fields(state) for state in ends)
+    assert np.allclose(stream.v - [4.0, 3.0], rest.v, atol=1e-9) and np.allclose(stream.T, rest.T, atol=1e-9)
+
+
+def test_a_fluid_without_an_entropy_is_refused_and_an_end_names_its_point():
+    made, state, _ = ready(SCENES["taylor-green"](8), NAME)
+    with pytest.raises(TypeError, match=r"DenseFluid has no formula for log_means: add @log_means\.of"):
+        replace(made, eos=DenseFluid())
+    state[8, 5] = -1.0
+    with pytest.raises(FloatingPointError, match=r"no step of .* leaves the point at .* E = -1, . edges"):
+        StableDelaunay(**vars(made)).start(len(made.x), ONE).march(state, 0.1, 1)
