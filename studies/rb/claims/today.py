@@ -36,7 +36,7 @@ FRONTIERE = "Frontiere, Raskin & Owen 2017"
 def near(name: str, rows: int, **known: Any) -> Claim:
     """What the paper of a maker of areas has us expect of K."""
     return Claim(id=f"own-today-{name.lower()}", value=abs(error(name, rows)), at_most=0.05, **known,
-                 because="a tenth of what classic particles lose, as of sumB: areas are exact on linear fields",
+                 because="a tenth of what classic particles lose, as of sumB",
                  statement=f"areas of {name} mend classic particles: |K/K_grid - 1|, {2*rows**2} particles, "
                            "Ra 10 000")
 
@@ -63,9 +63,9 @@ CLAIMS = (
     near("CRKSPH", 50, source=FRONTIERE),
     Claim(id="own-today-crksph-limit", source=FRONTIERE, value=abs(error("CRKSPH")), at_most=0.005,
           because="0.5 %: points that scatter are good to that",
-          statement="CRKSPH converges on the gas at a fixed range: |K/K_grid - 1|, extrapolated over 1/rows^2, "
-                    "Ra 10 000"),
-    Claim(id="own-today-crksph-order", source=FRONTIERE, value=order("CRKSPH", ROWS[:3]), expect=2, within=0.4,
+          statement="CRKSPH converges on the gas at a fixed range: |K/K_grid - 1|, over 1/rows^2, Ra 10 000"),
+    Claim(id="own-today-crksph-order", source=FRONTIERE, value=order("CRKSPH", ROWS[:3]), expect=2,
+          within=0.4,
           because="second order in smooth flows, says the paper; seen through seeds over a factor of two",
           statement="the error of K of CRKSPH falls as the square of the spacing: order, 25 to 50 rows"),
     near("MFM", 35, source="Hopkins 2015",
