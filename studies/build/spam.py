@@ -15,8 +15,10 @@ from particles.observe import PlateHeat, field_kinetic, heat_flow, particle_kine
 from particles.smooth.corrected import AllCorrected, Corrected, Reversed, Symmetrised
 from particles.smooth.meshless import Crksph, Mfm
 from particles.smooth.riemann import LowDissipationSums
+from particles.smooth.shifting import DeltaPlus
 from particles.smooth.spam import LessStatic, Spam
 from particles.smooth.sums import Direct, Nested
+from particles.smooth.transport import TransportVelocity
 from particles.terms import ArithmeticGradients, Gradients
 from particles.walls.fixed import fixed_plates
 from particles.walls.mirror import Odd, Own
@@ -69,7 +71,8 @@ def developed(scene: Any, x: np.ndarray) -> tuple:
 class Variant(NamedTuple):
     """One way to build the method; the defaults are the scheme as printed with the walls of Fig. 3.
 
-    weight : a class of `particles.weights`; h : its range. step : over its limit.
+    weight : a class of `particles.weights`; h : its range. step : over its limit. fraction : of the static
+    pressure that is left out, with the weight of a fluid of density `hydrostatic`.
     begin : (scene, x) -> (rho, v, T) at the start; None for the scene's own.
     """
 
@@ -80,6 +83,7 @@ class Variant(NamedTuple):
     gradients: Any = Gradients()
     transport: type = Nested
     fraction: float = 0.0
+    hydrostatic: float = 1.0
     step: float = OF_LIMIT
     begin: Callable | None = None
 
@@ -91,7 +95,8 @@ class Variant(NamedTuple):
 
     def ready(self, scene: Any, seed: int = 1, x: Any = None, fields: Any = None) -> Ready:
         check_taken(self, scene)
-        return Ready(method(scene, self), start(scene, seed, self.begin, x, fields), step(scene, self))
+        begun = self.transport.complete(start(scene, seed, self.begin, x, fields), 1.0, 1.0)
+        return Ready(method(scene, self), begun, step(scene, self))
 
     @property
     def series(self) -> dict[str, Any]:
@@ -139,6 +144,8 @@ TODAY = {v.name: v._replace(weight=WendlandC2, walls=images_odd) for v in (
     Variant("CRKSPH", transport=Crksph),
     Variant("MFM", transport=Mfm),
     Variant("riemann", transport=LowDissipationSums),
+    Variant("delta-plus", transport=DeltaPlus),
+    Variant("transport-velocity", transport=TransportVelocity, fraction=1.0, hydrostatic=0.0),
 )}
 JOINT = "-joint"
 
@@ -164,7 +171,7 @@ def method(scene: Any, variant: Variant) -> Spam:
         raise ValueError(f"walls of {variant.name} are {ends}, a box has {ENDS} ends: make one for each")
     return Spam(weight=weight.of(variant.h), eos=eos, law=scene.law, walls=walls(scene),
                 box=(scene.width, scene.L), g=scene.g, gradients=variant.gradients,
-                transport=variant.transport, static=LessStatic(variant.fraction, float(p)))
+                transport=variant.transport, static=LessStatic(variant.fraction, float(p), variant.hydrostatic))
 
 
 @cache
