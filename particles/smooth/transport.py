@@ -63,11 +63,9 @@ class TransportVelocity(Direct):
 
     def __init__(self, method: Any, n: int, threads: Threads):
         super().__init__(method, n, threads)
-        fraction, P0, rho0 = method.static
-        if not (P0 > 0 and fraction == 1 and rho0 == 0):
-            raise ValueError(f"a transport velocity is of a background pressure that pairs lack, got {fraction:g}"
-                             f" of P0 = {P0:g} with rho0 = {rho0:g}: give static = LessStatic(1.0, P0, 0.0), "
-                             "P0 > 0")
+        if not method.static.P0 > 0:
+            raise ValueError("a transport velocity is of a background pressure, got static.P0 = "
+                             f"{method.static.P0:g}: give static = LessStatic(fraction, P0, 0.0) with P0 > 0")
         self.even = np.empty((self.around.rows, 2))
 
     def make_ready(self, now: Any, dt: float) -> None:
