@@ -23,20 +23,22 @@ from continuum.fluid import energy, sound_speed
 from continuum.jit import jit
 from particles.pairs import pair_term, sweep
 from particles.smooth.corrected import FLAT
-from particles.smooth.sums import Direct, DirectState
+from particles.smooth.led import Led
+from particles.smooth.sums import DirectState
 from particles.threads import Threads
-from particles.walls import fixed_points, mirrored
+from particles.walls import fixed_points
 from particles.weights import value_and_slope
 
 R, POWER, FASTEST, DIFFUSION = 0.2, 4, 0.5, 0.1
-MOVED = 0.25        # of the skin: what may be left of it before a step, in which shifting leads no farther
-
-Shifted = np.dtype([*DirectState.descr, *((name, "f8") for name in "V rho P e c per_w dx dy gx gy".split())])
 
 
 class Uneven(NamedTuple):
     """sum V (1 + R (W/W(a))^4) grad w, sum V (x_j - x_i) grad w, sum V (rho_j - rho_i) grad w."""
     weight: Any
+
+
+class Slopes(NamedTuple):
+    """sum V_b {v_b - v_a, T_b - T_a} grad w, in the columns of `Gradients`."""
 
 
 class Shifting(NamedTuple):
@@ -49,6 +51,12 @@ def _(term, a, b, ab):
     x, y, wx, wy, rho = b.x - a.x, b.y - a.y, b.V*ab.wx, b.V*ab.wy, b.rho - a.rho
     f = 1 + R*(value_and_slope(term.weight, np.sqrt(x*x + y*y))[0]*a.per_w)**POWER
     return f*wx, f*wy, x*wx, x*wy, y*wy, rho*wx, rho*wy
+
+
+@pair_term(Slopes, 8)
+def _(term, a, b, ab):
+    u, v, T, wx, wy = b.vx - a.vx, b.vy - a.vy, b.T - a.T, b.V*ab.wx, b.V*ab.wy
+    return u*wx, v*wx, T*wx, 0.0, u*wy, v*wy, T*wy, 0.0
 
 
 @pair_term(Shifting, 6)
@@ -66,9 +74,12 @@ def _(term, a, b, ab):
             a.rho*(closing + 2*own) + (b.rho - a.rho)*other + mixed, 0.0, own + carried)
 
 
-class DeltaPlus(Direct):
+class DeltaPlus(Led):
     """The sums with them; V_i = m_i/rho_i."""
-    of_state: ClassVar[tuple[str, ...]] = (*Direct.of_state, "rho", "m")
+    of_state: ClassVar[tuple[str, ...]] = (*Led.of_state, "rho", "m")
+    numbers = np.dtype([*DirectState.descr,
+                        *((name, "f8") for name in "V rho P e c per_w dx dy gx gy".split())])
+    vectors = (("dx", "dy"), ("gx", "gy"))
 
     def __init__(self, method: Any, n: int, threads: Threads):
         super().__init__(method, n, threads)
@@ -90,11 +101,6 @@ class DeltaPlus(Direct):
             return f"particle {ids[i]} has the mass {state[6, i]:.4g}: shifting has emptied it"
         return super().fault(state, ids)
 
-    def make_ready(self, now: Any, dt: float) -> None:
-        if self.around.anchor is not None and self.around.moved(now.state) > MOVED*self.around.skin:
-            self.around.anchor = None
-        super().make_ready(now, dt)
-
     def place(self, state: np.ndarray) -> None:
         super().place(state)
         around, v = self.around, state[2:4]
@@ -103,10 +109,6 @@ class DeltaPlus(Direct):
             around.rho[first:last] = around.rho[parent]
         self.U = float(np.sqrt(((v - v.mean(axis=1, keepdims=True))**2).sum(axis=0).max()))
         self.V = state[6]/state[5]/self.method.m
-
-    def allocate(self, points: int) -> None:
-        super().allocate(points)
-        self.records = np.zeros(points, Shifted)
 
     def exchange(self, less: np.ndarray) -> tuple[Any, np.ndarray]:
         around, method, (_, records) = self.around, self.method, super().exchange(less)
@@ -117,22 +119,16 @@ class DeltaPlus(Direct):
                      records)
         self.threads(sweep, self.n, Uneven(method.weight), records, around.pairs, self.uneven)
         self.threads(_shift, self.n, self.U, method.weight.h, self.uneven, records)
-        for wall, parent, first, last in around.blocks:
-            axis = mirrored(wall)
-            for k, names in enumerate((("dx", "gx"), ("dy", "gy"))):
-                for name in names:
-                    records[name][first:last] = (-1.0 if k == axis else 1.0)*records[name][parent]
+        self.mirror()
         return Shifting(method.weight.h/2), records
+
+    def gradients(self) -> None:
+        self.threads(sweep, self.n, Slopes(), self.exchange(self.less)[1], self.around.pairs, self.slopes)
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
         """d(x, y, vx, vy, e, rho, m)/dt."""
         super().rates(state, out)
-        out[0] += self.records["dx"][:self.n]
-        out[1] += self.records["dy"][:self.n]
         out[5], out[6] = self.pull[:, 3], self.method.m*self.V*state[5]*self.pull[:, 5]
-
-    def velocity(self, state: np.ndarray) -> np.ndarray:
-        return state[2:4] + np.stack([self.records["dx"][:self.n], self.records["dy"][:self.n]])
 
 
 @jit

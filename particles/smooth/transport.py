@@ -6,8 +6,9 @@ Density is summed, V = m/rho. Particles move with v~ = v + d, and push with the 
     m v_i' = sum_j (V_i^2 + V_j^2) (-P~ grad W + (A_i + A_j)/2 . grad W), A = rho v d     [Eqs 6, 8]
     P~ = (rho_j P_i + rho_i P_j)/(rho_i + rho_j)                                          [Eq. 7]
 
-P0 = rho0 c0^2/gamma, the paper's, of our gas the pressure at the mean state, is what `LessStatic` leaves out
-as a whole, and its work goes by gradients of v, so that energy is closed but for that. tau, the paper's step,
+P0 = rho0 c0^2/gamma, the paper's, is of our gas the pressure at the mean state. `LessStatic` leaves out of P,
+with fraction 1, all of it, as the paper's P = c0^2 (rho - rho0) does; then its work goes by gradients of v,
+and energy is not closed but for that. tau, the paper's step,
 is 0.25 a/c of each particle, its limit of sound, whatever step is taken. Friction and heat are those of
 `Direct`, for Adami's harmonic mean. Each of a pair has half of the work of its forces.
 
@@ -20,15 +21,12 @@ import numpy as np
 
 from continuum.jit import jit
 from particles.pairs import pair_term, sweep
+from particles.smooth.led import Led
 from particles.smooth.meshless import sound
-from particles.smooth.sums import Direct, DirectState
+from particles.smooth.sums import DirectState
 from particles.threads import Threads
-from particles.walls import mirrored
 
 COURANT = 0.25      # of the paper's step    [Eq. 19]
-MOVED = 0.25        # of the skin: what may be left of it before a step, in which d leads no farther
-
-Carried = np.dtype([*DirectState.descr, *((name, "f8") for name in ("c", "dx", "dy"))])
 
 
 class Background(NamedTuple):
@@ -58,8 +56,9 @@ def _(term, a, b, ab):
     return fx, fy, -0.5*(u*fx + v*fy) + (a.k + b.k)*F*(a.T - b.T)
 
 
-class TransportVelocity(Direct):
+class TransportVelocity(Led):
     """The sums with them."""
+    numbers = np.dtype([*DirectState.descr, *((name, "f8") for name in ("c", "dx", "dy"))])
 
     def __init__(self, method: Any, n: int, threads: Threads):
         super().__init__(method, n, threads)
@@ -68,33 +67,13 @@ class TransportVelocity(Direct):
                              f"{method.static.P0:g}: give static = LessStatic(fraction, P0, 0.0) with P0 > 0")
         self.even = np.empty((self.around.rows, 2))
 
-    def make_ready(self, now: Any, dt: float) -> None:
-        if self.around.anchor is not None and self.around.moved(now.state) > MOVED*self.around.skin:
-            self.around.anchor = None
-        super().make_ready(now, dt)
-
-    def allocate(self, points: int) -> None:
-        super().allocate(points)
-        self.records = np.zeros(points, Carried)
-
     def exchange(self, less: np.ndarray) -> tuple[Any, np.ndarray]:
         around, method, (_, records) = self.around, self.method, super().exchange(less)
         self.threads(sound, len(around.x), method.eos, around.rho, around.T, records)
         self.threads(sweep, self.n, Background(), records, around.pairs, self.even)
         self.threads(_carry, self.n, method.static.P0, np.sqrt(method.m), self.even, records)
-        for wall, parent, first, last in around.blocks:
-            for axis, name in enumerate(("dx", "dy")):
-                sign = -1.0 if axis == mirrored(wall) else 1.0
-                records[name][first:last] = sign*records[name][parent]
+        self.mirror()
         return Transported(), records
-
-    def rates(self, state: np.ndarray, out: np.ndarray) -> None:
-        super().rates(state, out)
-        out[0] += self.records["dx"][:self.n]
-        out[1] += self.records["dy"][:self.n]
-
-    def velocity(self, state: np.ndarray) -> np.ndarray:
-        return state[2:4] + np.stack([self.records["dx"][:self.n], self.records["dy"][:self.n]])
 
 
 @jit
