@@ -49,7 +49,7 @@ def twin(method, state):
     eta, k = (f(method.law, 1.0, 1.0) for f in (viscosity, conductivity))
     c = np.array([sound_speed(method.eos, *q) for q in zip(p.rho, e)])
     slow = transported if method.transport is TransportVelocity else shifted
-    m, V, VV, shift, push, work, rho, carry = slow(method, p, state, w, g, d, F, dv, c)
+    m, VV, shift, push, work, rho, carry = slow(method, p, state, w, g, d, F, dv, c)
     push = push + (2*eta*VV*F)[..., None]*dv
     heat = work - eta*VV*F*(dv**2).sum(axis=2) + 2*k*VV*F*(p.T[:n, None] - p.T)
     gain = carry(np.ones(len(p.x))).sum(axis=1)
@@ -80,7 +80,7 @@ def shifted(method, p, state, w, g, d, F, dv, c):
     rho = state[5]*(((dv + s[:n, None] - s)*g).sum(axis=2)@V) + carry(1.0 + 0*p.rho).sum(axis=1)/V[:n]
     rho += 0.1*h/2*((c[:n, None] + c)/2*psi*F)@V
     push = -(VV*(p.P[:n, None] + p.P))[..., None]*g
-    return m, V, VV, s[:n], push, VV*p.P[:n, None]*(dv*g).sum(axis=2), rho, carry
+    return m, VV, s[:n], push, VV*p.P[:n, None]*(dv*g).sum(axis=2), rho, carry
 
 
 def transported(method, p, state, w, g, d, F, dv, c):
@@ -92,7 +92,7 @@ def transported(method, p, state, w, g, d, F, dv, c):
     A = np.einsum("i,ia,ib->iab", rho, p.v, s)
     P = (rho*p.P[:n, None] + rho[:n, None]*p.P)/(rho[:n, None] + rho)
     push = both[..., None]*(np.einsum("ijab,ijb->ija", (A[:n, None] + A)/2, g) - P[..., None]*g)
-    return (np.full(n, m), V, V[:n, None]*V, s[:n], push, -0.5*(push*dv).sum(axis=2), None,
+    return (np.full(n, m), V[:n, None]*V, s[:n], push, -0.5*(push*dv).sum(axis=2), None,
             lambda q: np.zeros((n, len(p.x))))
 
 

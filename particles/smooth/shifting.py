@@ -3,17 +3,19 @@
 Particles move with v + d. The shifting velocity d and the diffusion of densities are, with 2h the range,
 
     d = -U 2h sum_j (1 + R (W/W(a))^4) V_j grad W, |d| <= U/2        [Sun et al. 2017, 2019]
-    delta h c sum_j V_j psi.grad W, psi = 2 (rho_i - rho_j - (grad rho_i + grad rho_j).x/2) x/x^2, x = x_i - x_j
-                                                                     [Antuono et al. 2010]
+    delta h c sum_j V_j psi.grad W, x = x_i - x_j
+    psi = 2 (rho_i - rho_j - (grad rho_i + grad rho_j).x/2) x/x^2    [Antuono et al. 2010]
 
-U, in the papers the largest speed that is expected, is the largest over the mean of all: Ma c0 = U, and CFL
-drops out of Sun 2017's step over dt. Pairs push by V_i V_j (P_i + P_j); friction and heat are of `Direct`.
+U, in the papers the largest speed that is expected, is the largest there is, seen from the mean of all: Ma c0
+= U, and CFL drops out of Sun 2017's step over dt. Pairs push by V_i V_j (P_i + P_j); friction and heat are
+those of `Direct`.
 
-What the papers have no word of, or another: P(rho, T) and its c stand for c0^2 (rho - rho0) and c0, e is a
-row. d carries momentum and mass as in Sun 2019, where masses stay, and momentum is neither conserved nor
-Galilean invariant. Here masses follow, as in Antuono et al. 2021, and energy goes with them: with g = V_i V_j
-grad W, particle i gains (rho_i q_i d_i + rho_j q_j d_j).g of q = 1, v, e + v^2/2. All three are closed pair by
-pair; the height to which d lifts mass is not paid for.
+Our own: P(rho, T) and its c stand for c0^2 (rho - rho0) and c0, and e is a row. In Sun 2019 d carries density
+and momentum while masses stay, which neither conserves momentum nor is Galilean invariant. Here masses
+follow, as in Antuono et al. 2021, but without diffusion of theirs, and energy goes with them: with g = V_i
+V_j grad W particle i gains (rho_i q_i d_i + rho_j q_j d_j).g of q = 1, v, e + v^2/2. All three are closed pair
+by pair; the height to which d lifts mass is not paid for. Continuity is that of Sun 2019, whose volumes need
+not fill the box.
 """
 from typing import Any, ClassVar, NamedTuple
 

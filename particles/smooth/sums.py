@@ -21,8 +21,8 @@ class SmoothSums(Listed, ABC):
     """What both kinds of transport share: arrays, density sum, equations of state, for the time loop.
 
     places : rows of a state that are positions; `velocity` : their rates, for integrators that step them
-    apart. symbol : of what stands for the wave number squared in `particles.limits.Symbols`. of_state : names of
-    its rows.
+    apart. symbol : of what stands for the wave number squared in `particles.limits.Symbols`.
+    of_state : names of its rows.
     """
     places = 2
     of_state: ClassVar[tuple[str, ...]] = ("x", "y", "vx", "vy", "e")

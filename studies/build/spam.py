@@ -147,9 +147,13 @@ TODAY = {v.name: v._replace(weight=WendlandC2, walls=images_odd) for v in (
     Variant("MFM", transport=Mfm),
     Variant("riemann", transport=LowDissipationSums),
     Variant("delta-plus", transport=DeltaPlus),
-    Variant("transport-velocity", transport=TransportVelocity, fraction=1.0, hydrostatic=0.0, step=STEPPED*OF_LIMIT),
+    Variant("transport-velocity", transport=TransportVelocity, fraction=1.0, hydrostatic=0.0,
+            step=STEPPED*OF_LIMIT),
     Variant("transport-velocity-whole", transport=TransportVelocity),
 )}
+#: densities by continuity do not rise where particles sink: pressure copied by images lets them, as P has a slope
+TODAY["delta-plus-own-pressure"] = TODAY["delta-plus"]._replace(name="delta-plus-own-pressure",
+                                                                walls=images_odd_own)
 JOINT = "-joint"
 
 
@@ -174,7 +178,8 @@ def method(scene: Any, variant: Variant) -> Spam:
         raise ValueError(f"walls of {variant.name} are {ends}, a box has {ENDS} ends: make one for each")
     return Spam(weight=weight.of(variant.h), eos=eos, law=scene.law, walls=walls(scene),
                 box=(scene.width, scene.L), g=scene.g, gradients=variant.gradients,
-                transport=variant.transport, static=LessStatic(variant.fraction, float(p), variant.hydrostatic))
+                transport=variant.transport,
+                static=LessStatic(variant.fraction, float(p), variant.hydrostatic))
 
 
 @cache

@@ -198,7 +198,7 @@ def today() -> Iterator[Case]:
 
 
 #: of today's makers, those that are run with few rows only
-SHORT = ("riemann", "delta-plus", "transport-velocity", "transport-velocity-whole")
+SHORT = ("riemann", "delta-plus", "delta-plus-own-pressure", "transport-velocity", "transport-velocity-whole")
 
 
 def makers() -> Iterator[Case]:

@@ -79,8 +79,8 @@ CLAIMS = (
     Claim(id="own-today-delta-plus", source="Sun et al. 2019", value=abs(error("delta-plus", 35)),
           at_most=0.05, after="the first 20 free-fall times of one run of 25 rows had been seen",
           because="a tenth of what classic particles lose: shifted particles lie evenly, says the paper",
-          statement="densities by continuity and shifted places bring particles near the gas: |K/K_grid - 1|, "
-                    "2450 particles, Ra 10 000"),
+          statement="densities by continuity and shifted places bring particles near the gas: "
+                    "|K/K_grid - 1|, 2450 particles, Ra 10 000"),
     Claim(id="own-today-transport-velocity", source="Adami, Hu & Adams 2013",
           value=abs(error("transport-velocity", 35)), at_most=0.05,
           because="a tenth of what classic particles lose: P0, whose residues damp, is out of the forces",
