@@ -13,9 +13,9 @@ those of `Direct`.
 Our own: P(rho, T) and its c stand for c0^2 (rho - rho0) and c0, and e is a row. In Sun 2019 d carries density
 and momentum while masses stay, which neither conserves momentum nor is Galilean invariant. Here masses
 follow, as in Antuono et al. 2021, but without diffusion of theirs, and energy goes with them: with g = V_i
-V_j grad W particle i gains (rho_i q_i d_i + rho_j q_j d_j).g of q = 1, v, e + v^2/2. All three are closed pair
-by pair; the height to which d lifts mass is not paid for. Continuity is that of Sun 2019, whose volumes need
-not fill the box.
+V_j grad W particle i gains (rho_i q_i d_i + rho_j q_j d_j).g of q = 1, v, e + v^2/2. All three are closed
+pair by pair; the height to which d lifts mass is not paid for. Continuity is that of Sun 2019, whose volumes
+need not fill the box.
 """
 from typing import Any, ClassVar, NamedTuple
 

@@ -151,7 +151,7 @@ TODAY = {v.name: v._replace(weight=WendlandC2, walls=images_odd) for v in (
             step=STEPPED*OF_LIMIT),
     Variant("transport-velocity-whole", transport=TransportVelocity),
 )}
-#: densities by continuity do not rise where particles sink: pressure copied by images lets them, as P has a slope
+#: densities by continuity do not rise where particles sink to a plate whose images copy P, which has a slope
 TODAY["delta-plus-own-pressure"] = TODAY["delta-plus"]._replace(name="delta-plus-own-pressure",
                                                                 walls=images_odd_own)
 JOINT = "-joint"
