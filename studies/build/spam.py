@@ -83,7 +83,7 @@ class Variant(NamedTuple):
     h: float = 3.0
     walls: Callable = images
     gradients: Any = Gradients()
-    transport: type = Nested
+    transport: type[Nested] | type[Direct] = Nested
     fraction: float = 0.0
     hydrostatic: float = 1.0
     step: float = OF_LIMIT
