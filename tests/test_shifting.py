@@ -10,6 +10,7 @@ from test_spam import BOX, COLD, COLUMNS, HOT, MASS, PERIODIC, ROWS, close, clos
 
 from continuum.fluid import ConstEta, IdealGas, VanDerWaals, conductivity, energy, sound_speed, viscosity
 from particles.limits import by_trial, largest_step, step_limit
+from particles.observe import fields_at, particle_kinetic
 from particles.smooth.shifting import DeltaPlus
 from particles.smooth.spam import LessStatic, Spam
 from particles.smooth.transport import TransportVelocity
@@ -155,6 +156,21 @@ def test_steps_of_waves_are_stable_for_what_is_shifted(kind, static):
     method = spam(kind, static=static)
     state = kind.complete(crowd(BOX, COLUMNS, ROWS, method.eos, 0.05), 1.0, MASS)
     assert 0.3*step_limit(method, state[4]) < largest_step(by_trial(method, state))
+
+
+def test_what_is_measured_counts_the_masses_that_particles_have():
+    method = spam(DeltaPlus)
+    state = state_of(method)
+    fields, (sums, ordered, _) = method.fields(state), method.look(state)
+    np.testing.assert_allclose([fields.rho*fields.V, fields.rho], state[[6, 5]], rtol=1e-13)
+    kinetic = state[6]@(state[2]**2 + state[3]**2)/2
+    assert particle_kinetic(sums, ordered) == pytest.approx(kinetic/MASS/state.shape[1], rel=1e-12)
+    sums.look_at(ordered)
+    p, V = plain.points(method, ordered), ordered[6]/ordered[5]
+    slow = at_all_points(p, V)*(p.T - p.T[:sums.n, None])*plain.pairs(method, p.x, sums.n)[1][..., 0]
+    assert close(sums.gradient[:, 2], slow.sum(axis=1)) < 1e-12
+    whole = fields_at(sums, ordered, *np.meshgrid(np.arange(9) - 4.0, np.arange(8) - 3.5)).rho.mean()
+    assert whole == pytest.approx(state[6].sum()/(BOX[0]*BOX[1]), rel=0.02)
 
 
 def test_what_they_cannot_take_is_refused():
