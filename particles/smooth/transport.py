@@ -3,14 +3,14 @@
 Density is summed, V = m/rho. Particles move with v~ = v + d, and push with the pressure less P0, as
 
     d_i = -(tau/m) P0 sum_j (V_i^2 + V_j^2) grad W                                        [Eq. 13]
-    m v_i' = sum_j (V_i^2 + V_j^2) (-P~ grad W + (A_i + A_j)/2 . grad W), A = rho v d     [Eqs 6, 8]
+    m v_i' = sum_j (V_i^2 + V_j^2) (-P~ grad W + (A_i + A_j)/2 . grad W), A = rho v d     [Eq. 8]
     P~ = (rho_j P_i + rho_i P_j)/(rho_i + rho_j)                                          [Eq. 7]
 
 P0 = rho0 c0^2/gamma, the paper's, is of our gas the pressure at the mean state. `LessStatic` leaves out of P,
-with fraction 1, all of it, as the paper's P = c0^2 (rho - rho0) does; then its work goes by gradients of v,
-and energy is not closed but for that. tau, the paper's step,
-is 0.25 a/c of each particle, its limit of sound, whatever step is taken. Friction and heat are those of
-`Direct`, for Adami's harmonic mean. Each of a pair has half of the work of its forces.
+with fraction 1, all of it, as the paper's P = c0^2 (rho - rho0) does; its work goes by gradients of v then,
+so that energy is not closed. tau, the paper's step, is 0.25 a/c of each particle, its limit of sound,
+whatever step is taken. Friction and heat are those of `Direct`, for Adami's harmonic mean. Each of a pair has
+half of the work of its forces. Walls of the paper extrapolate P by gravity; images copy it.
 
 As in the paper v div(rho d) is left out of A: rates are Galilean invariant only where A is none. There is no
 A of energy: heat is carried by v~; e d without the mass would heat by e div d, and e, unlike v, is not small.
@@ -26,7 +26,7 @@ from particles.smooth.meshless import sound
 from particles.smooth.sums import DirectState
 from particles.threads import Threads
 
-COURANT = 0.25      # of the paper's step    [Eq. 19]
+COURANT = 0.25      # of the paper's step
 
 
 class Background(NamedTuple):
