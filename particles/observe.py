@@ -1,4 +1,4 @@
-"""What is measured on particles, from up-to-date sums and the state (5, n) = x, y, vx, vy, e.
+"""What is measured on particles, from up-to-date sums and the state, whose first rows are x, y, vx, vy, e.
 
 KHP95 do not say which kinetic energy their figures show, so all three are kept: Kp of the particles, Kg of
 the smoothed field, Kfl = Kp - Kg of their fluctuations.
@@ -25,7 +25,7 @@ def fields_at(sums: Any, state: np.ndarray, x: np.ndarray, y: np.ndarray) -> Smo
     """rho = sum m w, rho v = sum m v w, rho e = sum m e w at places (x, y)    [KHP95, Sec. II]"""
     around, method = sums.around, sums.method
     e = np.concatenate([state[4], energy(method.eos, around.rho[sums.n:], around.T[sums.n:])])
-    values = np.stack([np.ones_like(e), around.vx, around.vy, e], axis=1)
+    values = np.stack([np.ones_like(e), around.vx, around.vy, e], axis=1)*shares(sums, state)[:, None]
     out = np.empty((np.size(x), 4))
     cells = sort_into_cells(around.x, around.y, method.weight.h/2)
     at = np.ravel(x).astype(float), np.ravel(y).astype(float)
@@ -35,27 +35,36 @@ def fields_at(sums: Any, state: np.ndarray, x: np.ndarray, y: np.ndarray) -> Smo
     return Smoothed(rho, vx/rho, vy/rho, e/rho, temperature(method.eos, rho, e/rho))
 
 
+def shares(sums: Any, state: np.ndarray) -> np.ndarray:
+    """Masses of all points over that of the method."""
+    out = np.ones(len(sums.around.x))
+    out[:sums.n] = sums.shares(state)
+    for _, parent, first, last in sums.around.blocks:
+        out[first:last] = out[parent]
+    return out
+
+
 def particle_kinetic(sums: Any, state: np.ndarray) -> float:
     """Kp: kinetic energy per mass of the particles."""
-    return float(0.5*np.mean(state[2]**2 + state[3]**2))
+    return float(0.5*np.mean(sums.shares(state)*(state[2]**2 + state[3]**2)))
 
 
 def field_kinetic(sums: Any, state: np.ndarray) -> float:
     """Kg: kinetic energy per mass of the smoothed field <v> at the particles    [KHP95, Sec. VI]"""
     at = fields_at(sums, state, state[0], state[1])
-    return float(0.5*np.mean(at.vx**2 + at.vy**2))
+    return float(0.5*np.mean(sums.shares(state)*(at.vx**2 + at.vy**2)))
 
 
 def heat_flow(sums: Any, state: np.ndarray) -> float:
     """Mean upward energy flux Q_y + rho v_y (e + P/rho + v^2/2 + g y) - (stress.v)_y: steady Nu."""
     n, around, method = sums.n, sums.around, sums.method
-    _, y, vx, vy, e = state
+    _, y, vx, vy, e = state[:5]
     rho, T = around.rho[:n], around.T[:n]
     gx_vx, gx_vy, _, gy_vx, gy_vy, gy_T = sums.gradient[:n].T
     _, sxy, syy = stress(viscosity(method.law, rho, T), 0.0, gx_vx, gx_vy, gy_vx, gy_vy)
     carried = rho*vy*(e + around.P[:n]/rho + (vx**2 + vy**2)/2 + method.g*y)
     flux = carried - conductivity(method.law, rho, T)*gy_T - sxy*vx - syy*vy
-    return float(np.sum(flux*method.m/rho)/(method.box[0]*method.box[1]))
+    return float(np.sum(sums.shares(state)*flux*method.m/rho)/(method.box[0]*method.box[1]))
 
 
 class PlateHeat(NamedTuple):
@@ -72,8 +81,9 @@ class PlateHeat(NamedTuple):
         term, records = sums.exchange(sums.less if self.pressure else np.zeros_like(sums.less))
         pull = np.zeros((sums.around.rows, sums.pull.shape[1]))
         sums.threads(sweep, sums.n, term, records, pairs_behind(sums, self.side), pull)
-        ax, ay, heat, _, work = pull[:sums.n].T
-        return float(sums.method.m*np.sum(state[2]*ax + state[3]*ay + heat + work)/sums.method.box[0])
+        ax, ay, heat, _, work = pull[:sums.n, :5].T
+        power = sums.shares(state)*(state[2]*ax + state[3]*ay + heat + work)
+        return float(sums.method.m*np.sum(power)/sums.method.box[0])
 
 
 def pairs_behind(sums: Any, side: int) -> Pairs:

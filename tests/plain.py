@@ -122,6 +122,8 @@ def points(method: Spam, state: np.ndarray) -> Points:
     v, T, rho, P = np.zeros((len(x), 2)), np.zeros(len(x)), np.zeros(len(x)), np.zeros(len(x))
     w, _ = pairs(method, x, rows)
     rho[:rows] = method.m*w.sum(axis=1)
+    if len(state) > 5:
+        rho[:n] = state[5]
     v[:n], T[n:rows] = state[2:4].T, [p[2] for p in held]
     e = np.append(state[4], energy(method.eos, rho[n:rows], T[n:rows]))
     T[:n] = temperature(method.eos, rho[:n], e[:n])

@@ -52,7 +52,9 @@ class Spam:
     skin: float = 0.7
     integrator: type = RK4
 
-    names = ("x", "y", "vx", "vy", "e")
+    @property
+    def names(self) -> tuple[str, ...]:
+        return self.transport.of_state
 
     def __post_init__(self):
         check_numbers(m=self.m, g=self.g, skin=self.skin)
@@ -70,14 +72,15 @@ class Spam:
                              f"{self.law}: take Nested, or ConstEta")
 
     def state(self, x: np.ndarray, rho: Any, v: np.ndarray, T: np.ndarray) -> np.ndarray:
-        """(5, n) of places (n, 2), velocities (n, 2), temperatures (n,) at densities rho."""
-        return np.stack([*x.T, *v.T, energy(self.eos, rho, T)*np.ones(len(x))])
+        """(rows, n) of places (n, 2), velocities (n, 2), temperatures (n,) at densities rho."""
+        state = np.stack([*x.T, *v.T, energy(self.eos, rho, T)*np.ones(len(x))])
+        return self.transport.complete(state, rho, self.m)
 
     def fields(self, state: np.ndarray) -> Fields:
         """Of the particles, (n,) each, in the order of the state; density by the method's own sum."""
         sums, _, ids = self.look(state)
         rho, T = (q[:sums.n][np.argsort(ids)] for q in (sums.around.rho, sums.around.T))
-        return Fields(state[:2].T.copy(), state[2:4].T.copy(), rho, T, self.m/rho)
+        return Fields(state[:2].T.copy(), state[2:4].T.copy(), rho, T, self.m*sums.shares(state)/rho)
 
     def look(self, state: np.ndarray) -> tuple[Nested | Direct, np.ndarray, np.ndarray]:
         """(sums, state, ids) with new lists, in their order: densities, motion and images are up to date."""

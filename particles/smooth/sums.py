@@ -22,8 +22,10 @@ class SmoothSums(Listed, ABC):
 
     places : rows of a state that are positions; `velocity` : their rates, for integrators that step them
     apart. symbol : of what stands for the wave number squared in `particles.limits.Symbols`.
+    of_state : names of its rows.
     """
     places = 2
+    of_state: ClassVar[tuple[str, ...]] = ("x", "y", "vx", "vy", "e")
     symbol: ClassVar[str]
 
     def __init__(self, method: Any, n: int, threads: Threads):
@@ -32,10 +34,23 @@ class SmoothSums(Listed, ABC):
         self.slopes, self.pull = np.zeros((self.around.rows, 8)), np.zeros((self.around.rows, 5))
         self.less, self.moving = np.empty(0), np.empty(0, Moving)
 
+    @classmethod
+    def complete(cls, state: np.ndarray, rho: Any, m: float) -> np.ndarray:
+        """All rows of a state from the first five; density and mass of particles."""
+        return state
+
+    def shares(self, state: np.ndarray) -> Any:
+        """Masses of the particles over that of the method."""
+        return 1.0
+
+    def place(self, state: np.ndarray) -> None:
+        """Positions and densities."""
+        self.around.place(state, self.method.m)
+
     def densities(self, state: np.ndarray) -> None:
         """First sum, equations of state, motion and pressure of the images."""
         around, method = self.around, self.method
-        around.place(state, method.m)
+        self.place(state)
         if len(self.less) != len(around.x):
             self.allocate(len(around.x))
         self.threads(_thermal, around.rows, self.n, state, method.eos, method.static, method.g, around.y,

@@ -24,8 +24,8 @@ KINETIC = Table("kinetic_energy", key=RUN, columns=RUNS.split(),
                 about="A run of one solver: means over its late part. Boussinesq rows are in free-fall "
                       "units.")
 MAKERS = Table("makers", key=RUN, columns=RUNS.split(),
-               about="A run of smooth particles with areas as CRKSPH and MFM make them, and with a limited "
-                     "Riemann problem.")
+               about="A run of smooth particles with areas as CRKSPH and MFM make them, with a limited "
+                     "Riemann problem, or with places that are shifted.")
 MEANS = Table.of("means", AT, f"particles seeds mixed {ENERGIES} rolls",
                  about="Means over the seeds that settled in the commonest number of rolls. An error is the "
                        "larger of those within runs and between seeds, and twice what half of the step "

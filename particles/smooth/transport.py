@@ -1,0 +1,85 @@
+"""Smooth particles that a background pressure moves    [Adami, Hu & Adams 2013]
+
+Density is summed, V = m/rho. Particles move with v~ = v + d, and push with the pressure less P0, as
+
+    d_i = -(tau/m) P0 sum_j (V_i^2 + V_j^2) grad W                                        [Eq. 13]
+    m v_i' = sum_j (V_i^2 + V_j^2) (-P~ grad W + (A_i + A_j)/2 . grad W), A = rho v d     [Eq. 8]
+    P~ = (rho_j P_i + rho_i P_j)/(rho_i + rho_j)                                          [Eq. 7]
+
+P0 = rho0 c0^2/gamma, the paper's, is of our gas the pressure at the mean state. `LessStatic` leaves out of P,
+with fraction 1, all of it, as the paper's P = c0^2 (rho - rho0) does; its work goes by gradients of v then,
+so that energy is not closed. tau, the paper's step, is 0.25 a/c of each particle, its limit of sound,
+whatever step is taken. Friction and heat are those of `Direct`, for Adami's harmonic mean. Each of a pair has
+half of the work of its forces. Walls of the paper extrapolate P by gravity; images copy it.
+
+As in the paper v div(rho d) is left out of A: rates are Galilean invariant only where A is none. There is no
+A of energy: heat is carried by v~; e d without the mass would heat by e div d, and e, unlike v, is not small.
+"""
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from continuum.jit import jit
+from particles.pairs import pair_term, sweep
+from particles.smooth.led import Led
+from particles.smooth.meshless import sound
+from particles.smooth.sums import DirectState
+from particles.threads import Threads
+
+COURANT = 0.25      # of the paper's step
+
+
+class Background(NamedTuple):
+    """sum (1/rho_a^2 + 1/rho_b^2) grad m w."""
+
+
+class Transported(NamedTuple):
+    """As `DirectFluxes`, with P~ and A."""
+
+
+@pair_term(Background, 2)
+def _(term, a, b, ab):
+    f = a.irho**2 + b.irho**2
+    return f*ab.wx, f*ab.wy
+
+
+@pair_term(Transported, 3)
+def _(term, a, b, ab):
+    x, y, u, v, f = a.x - b.x, a.y - b.y, a.vx - b.vx, a.vy - b.vy, a.irho**2 + b.irho**2
+    # two particles in one place exert no force on each other
+    F = (x*ab.wx + y*ab.wy)/max(x*x + y*y, 1e-300)*a.irho*b.irho
+    # rho_j P_i + rho_i P_j over the sum, of P/rho^2
+    p, drag = f*(a.P_rho2/a.irho + b.P_rho2/b.irho)/(a.irho + b.irho), (a.eta + b.eta)*F
+    own, other = 0.5*f*(a.dx*ab.wx + a.dy*ab.wy)/a.irho, 0.5*f*(b.dx*ab.wx + b.dy*ab.wy)/b.irho
+    fx = drag*u - p*ab.wx + own*a.vx + other*b.vx
+    fy = drag*v - p*ab.wy + own*a.vy + other*b.vy
+    return fx, fy, -0.5*(u*fx + v*fy) + (a.k + b.k)*F*(a.T - b.T)
+
+
+class TransportVelocity(Led):
+    """The sums with them."""
+    numbers = np.dtype([*DirectState.descr, *((name, "f8") for name in ("c", "dx", "dy"))])
+
+    def __init__(self, method: Any, n: int, threads: Threads):
+        super().__init__(method, n, threads)
+        if not method.static.P0 > 0:
+            raise ValueError("a transport velocity is of a background pressure, got static.P0 = "
+                             f"{method.static.P0:g}: give static = LessStatic(fraction, P0, 0.0) with P0 > 0")
+        self.even = np.empty((self.around.rows, 2))
+
+    def exchange(self, less: np.ndarray) -> tuple[Any, np.ndarray]:
+        around, method, (_, records) = self.around, self.method, super().exchange(less)
+        self.threads(sound, len(around.x), method.eos, around.rho, around.T, records)
+        self.threads(sweep, self.n, Background(), records, around.pairs, self.even)
+        self.threads(_carry, self.n, method.static.P0, np.sqrt(method.m), self.even, records)
+        self.mirror()
+        return Transported(), records
+
+
+@jit
+def _carry(first, last, P0, root_m, even, records):
+    """d, a = sqrt(m/rho)."""
+    for i in range(first, last):
+        a = records[i]
+        f = -COURANT*root_m*np.sqrt(a.irho)/a.c*P0
+        a.dx, a.dy = f*even[i, 0], f*even[i, 1]
