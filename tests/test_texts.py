@@ -154,6 +154,13 @@ def smooth() -> Iterator[str]:
     yield (f"it is {today['corrected']} % off with 25, 35, 50, 70 rows, "
            f"{percent('own-today-corrected-limit')} % in the limit")
     yield f"of order {of('own-today-corrected-order')}"
+    others = {name: all_of(of_rows(name, rows)) for name, rows in (
+        ("CRKSPH", (25, 35, 50)), ("MFM", (25, 35)), ("riemann", (35,)), ("delta-plus", (35,)),
+        ("transport-velocity-whole", (25,)))}
+    yield (f"CRKSPH is {others['CRKSPH']} % off in Kp with 25, 35, 50 rows, "
+           f"{percent('own-today-crksph-limit')} % in the limit. MFM is {others['MFM']} % off")
+    yield (f"is {others['riemann']} %, delta-plus {others['delta-plus']} % off; a transport velocity is "
+           f"{others['transport-velocity-whole']} % off")
     heat = [one("means", "nu", **point)(RB) for point in (particles(1e4, np.inf, "corrected"), grid(1e4))]
     yield f"Nu ends {said(1 - heat[0]/heat[1])} % low"
     grows = one("critical_ra", "value", err="err", method="compressible", way="run")(Folder("onset"))
@@ -217,6 +224,22 @@ def convection() -> Iterator[str]:
     yield f"Velocities are off by {velocities(25, 40)} % with 25 and 40 rows"
     yield f"or {percent('rr98-rb-nested-only')} % low with 40 rows"
     yield f"A tenth along edges gives {percent('own-rb-nested-tenth')} %"
+
+
+def cavity() -> Iterator[str]:
+    nu = [one("cavity", "value", method="spectral-boussinesq", quantity="nu", resolution=48, ra=ra)
+          (Folder("cavity")).value for ra in (1e3, 1e4, 1e5)]
+    yield f"Pr 0.71 is {', '.join(f'{one:.8f}' for one in nu)}, "
+    yield f"too narrow by {of('own-cavity-limits', form='.1f')} at Ra 1e6"
+    reads, passes = (one("ethersph", name, err=f"{name}_err", ra=1e6, rows=100)(Folder("bench"))
+                     for name in ("read", "heat"))
+    yield f"reads Nu {said(reads, 1)}, while its sides pass {said(passes, 1)}"
+
+
+def space() -> Iterator[str]:
+    rolls, crossed, squares = (percent(f"own-rb-space-{start}") for start in ("rolls", "crossed", "squares"))
+    yield f"ends {rolls} % from that of the plane. Crossed rolls end as rolls, {crossed} % from it"
+    yield f"K ends {squares} % from that of a spectral gas"
 
 
 def costs() -> Iterator[str]:
@@ -331,7 +354,8 @@ def counts() -> Iterator[str]:
 
 
 TEXTS = {"README.md": (front,), "results/README.md": (counts,),
-         "results/findings.md": (smooth, grids, edges, convection, costs, noises, energies, breaks, choice)}
+         "results/findings.md": (smooth, grids, cavity, edges, convection, space, costs, noises,
+                                 energies, breaks, choice)}
 #: a number with its error, as in 17.5(15)
 ERROR = r"[-+]?\d[\d.]*\(\d+\)"
 #: that no row has: the example of how they are written, an error that misses its level, ranges of variants
