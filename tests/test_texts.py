@@ -316,8 +316,8 @@ def breaks() -> Iterator[str]:
     yield (f"are {max(flux['sedov'], flux['noh']):.2f} spacings off at most, the state behind a shock of "
            f"Mach 10 by {100*flux['plateau']:.2f} %")
     kept = [100*flux[f"turns-{points}"] for points in ("lattice", "jittered", "moving")]
-    yield (f"keeps {kept[0]:.0f} % of K over a hundred turns on a lattice, {kept[1]:.0f} % on shifted points, "
-           f"{kept[2]:.0f} % on moving ones")
+    yield (f"keeps {kept[0]:.0f} % of K over a hundred turns on a lattice, {kept[1]:.0f} % on shifted "
+           f"points, {kept[2]:.0f} % on moving ones")
     debye = read(RESULTS/"lattices/debye.csv").query("lattice == 'hexagonal' and h == 2.5")
     debye = debye[debye["weight"] == "Lucy"]
     sound, shear = debye[["sound", "shear"]].iloc[0]
