@@ -346,8 +346,7 @@ def front() -> Iterator[str]:
     yield f"K is {digits('fixed-lattice', [50])} % too high with 50 rows, right within {within} %"
     yield f"converge, {digits('moving-delaunay', [50], '.2f').strip('-')} % too low with 50 rows"
     yield (f"lattice points take {of('own-speed-fixed-points', form='.1f')} times as long, moving ones "
-           f"{of('own-speed-carried-k')} times, but {of('own-speed-carried-velocity')} times for 1 % in "
-           "velocity")
+           f"{of('own-speed-carried-k')} times")
     yield f"| {seconds('spam-corrected', 'convection', 'K').value:.0f} s (`spam`: never) |"
     for name in ("grid", "fixed-lattice-h1.2", "moving-delaunay"):
         yield f"| {seconds(name, 'convection', 'K').value:.2f} s |"
