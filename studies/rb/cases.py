@@ -104,7 +104,7 @@ def grids() -> Iterator[Case]:
     """References of the layer: the lines of Fig. 5, Boussinesq, py-pde, the approach of Fig. 8."""
     for ra in LINE:
         yield gas(ra, GRIDS, keep="fields" if ra in (3e3, 5e3, 1e4) else "")
-        more: dict[str, Any] = {"sizes": (20, 24, 28, 32)} if ra > 2e4 else {}     # for eight digits
+        more: dict[str, Any] = {"sizes": (24, 28, 32, 36)} if ra > 2e4 else {}     # for eight digits
         yield truth.SpectralGas(scene=RayleighBenard(ra=ra), **more)
         for pr in (0.71, 1.0, 2.0, 7.0):
             yield BoussinesqSteady(ra=ra, pr=pr)
