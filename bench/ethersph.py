@@ -1,6 +1,6 @@
 """EtherSPH.jl's scheme in the cavity, made again from its sources: what heat passes, and what it would print.
 
-    python -m bench.ethersph [--rows 50 100] [--ra 1e3 1e6] [--factor 1]
+    python -m bench.ethersph [--rows 50 100] [--ra 1e3 1e6] [--factor 1] [--until 30]
 
 Weakly compressible smooth particles: Wendland C2 of range 3 spacings, density by continuity, P = c^2 (rho -
 1) + 0.02 c^2, a pair's pressure 1 % stronger where it is near, Morris' friction, Brookshaw's heat, both with
@@ -177,8 +177,8 @@ def as_read(x: np.ndarray, kind: np.ndarray, T: np.ndarray, rows: int) -> float:
     return float(np.trapezoid((np.array(columns[0]) - columns[1])*rows, y))
 
 
-def run(ra: float, rows: int, factor: float) -> dict[str, Any]:
-    """A row of the table. Raises ValueError: Ra is none of theirs."""
+def run(ra: float, rows: int, factor: float, until: float | None = None) -> dict[str, Any]:
+    """A row of the table, until the code's own time or another. Raises ValueError: Ra is none of theirs."""
     if ra not in RUNS:
         raise ValueError(f"Ra must be one of {', '.join(f'{known:g}' for known in RUNS)}, got {ra:g}: "
                          "the code has no speed of sound for another")
@@ -186,7 +186,7 @@ def run(ra: float, rows: int, factor: float) -> dict[str, Any]:
     n, dt = int((kind == FLUID).sum()), 0.1*by.reach/by.c
     v, rho, T = np.zeros_like(x), np.ones(len(x)), np.select([kind == HOT, kind == COLD], [1.0, 0.0], 0.5)
     dv, dT, heat, seen = np.zeros((n, 2)), np.zeros(n), np.zeros(4), list[tuple[float, float]]()
-    steps, anchor, lists = round(RUNS[ra][2]/dt), np.full_like(x, np.inf), None
+    steps, anchor, lists = round((until or RUNS[ra][2])/dt), np.full_like(x, np.inf), None
     marks = np.linspace(0.8*steps, steps - 1, SAMPLES).astype(int)
     for step in range(steps):
         if not np.abs(x - anchor).max() < SKIN*by.a/2/2**0.5:
@@ -221,10 +221,11 @@ def main() -> None:
     parser.add_argument("--rows", type=int, nargs="+", default=[50, 100])
     parser.add_argument("--ra", type=float, nargs="+", default=list(RUNS))
     parser.add_argument("--factor", type=float, help="of the walls' conductivity, in place of the code's own")
+    parser.add_argument("--until", type=float, help="time of the end, in place of the code's own")
     words = parser.parse_args()
     for rows in words.rows:
         for ra in words.ra:
-            row = run(ra, rows, words.factor or RUNS.get(ra, (0, 1.0))[1])
+            row = run(ra, rows, words.factor or RUNS.get(ra, (0, 1.0))[1], words.until)
             print(row, flush=True)
             keep(pd.DataFrame([row | {"commit": commit(), "date": now()}]))
 

@@ -73,3 +73,11 @@ def test_printed_errors_against_printed_energies(ra):
     ratio = khp(f"ke-{ra}-spam")/khp(f"ke-{ra}")
     for what, error in (("energy", 1 - ratio), ("velocity", 1 - np.sqrt(ratio))):
         assert error == pytest.approx(khp(f"derived-{what}-error-{ra}"), abs=5e-5)  # four decimals kept
+
+
+@pytest.mark.parametrize("key, reference", [
+    ("nu-1e3", 1.118), ("nu-1e4", 2.243), ("nu-1e6", 8.806), ("before-1e3", 1.117), ("before-1e5", 4.504),
+    ("before-1e6", 8.767)])
+def test_printed_errors_of_ethersph_are_those_from_a_printed_reference(key, reference):
+    error = 100*abs(number(f"ethersph-{key}")/reference - 1)
+    assert error == pytest.approx(number(f"ethersph-error-{key}"), abs=5e-4)    # of three decimals
