@@ -6,7 +6,7 @@ sph            sph/taitwater/morris with sph/heatconduction: Lucy's weight
 rheo           RHEO, quintic weight, shifting, density damping as in RHEO's own examples
 rheo-RK1       the same with the weight corrected to first order
 rheo-rebuilt   rheo with interface/reconstruct: velocity and density continued into the frozen rows
-...-damped     with the artificial viscosity of RHEO's own examples
+rheo-damped    rheo with the artificial viscosity of RHEO's own examples
 
 Convection is that of a Boussinesq fluid, Ra = 10 000, Pr = 1: `fix addforce` with a variable of the
 temperature lifts. Means run over free-fall times 60 to 90, as those of our particles; heat that passes is
