@@ -2,6 +2,8 @@
 import argparse
 import sys
 from collections.abc import Sequence
+from contextlib import suppress
+from inspect import signature
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +22,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("scene", help=", ".join(SCENES))
     parser.add_argument("methods", nargs="+", help="such as grid, fixed-lattice, moving, spam")
     parser.add_argument("--rows", type=int, nargs="+", default=[16], help="points or cells over the height")
+    parser.add_argument("--numbers", nargs="+", default=[], metavar="NAME=VALUE", type=number,
+                        help="of the scene, such as ra=5000 pr=0.7")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--time", type=float, help="length of the run, for convection in free-fall times")
     parser.add_argument("--out", type=Path, default=OWN, help="folder of the picture (default: results/own)")
@@ -36,9 +40,18 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return 0
 
 
+def number(words: str) -> tuple[str, float]:
+    """A number of a scene as it is typed."""
+    name, _, value = words.partition("=")
+    with suppress(ValueError):
+        if name not in signature(solve).parameters:
+            return name, float(value)
+    raise argparse.ArgumentTypeError(f"{words!r} is no number of a scene: write them as ra=5000 pr=0.7")
+
+
 def solution(words: argparse.Namespace, resume: Path) -> Any:
     """Of one method with one number of rows, which can be resumed; else a comparison."""
-    more = {"seed": words.seed, "time": words.time}
+    more = {**dict(words.numbers), "seed": words.seed, "time": words.time}
     if len(words.methods) == len(words.rows) == 1:
         return solve(words.scene, words.methods[0], rows=words.rows[0], resume=resume, **more)
     return compare(words.scene, words.methods, words.rows, **more)

@@ -127,7 +127,11 @@ def prepared(scene: Any, chosen: Any, seed: int = 1) -> Ready:
         begun["x"], begun["fields"] = of_one_mass(scene, seed)
     elif isinstance(scene, Sound) and isinstance(chosen, (FacesMotion, DriftMotion)):
         begun["x"] = lattice((scene.width, scene.L)).x
-    made = ready(scene, chosen, seed, **begun)
+    try:
+        made = ready(scene, chosen, seed, **begun)
+    except ValueError as error:     # points on sides take one that slides, but not into corners
+        corners = getattr(scene.sides, "axes", ()) == (False, False) and " = Sliding(" in str(error)
+        raise ValueError(str(error).replace(": take", ", as it slides into corners: take", corners)) from None
     return made._replace(start=made.start.reshape(len(made.start), -1))
 
 
@@ -147,7 +151,10 @@ def followed(scene: Any, made: Ready, plan: Plan, name: str, progress: bool | No
     with tqdm(total=plan.steps, desc=name, unit="step", disable=not shown, leave=False) as bar:
         def tell(part: float) -> None:
             bar.update(round(part*plan.steps) - bar.n)
-        done = run(made.method, made.start, plan, tell)
+        try:
+            done = run(made.method, made.start, plan, tell)
+        except Divergence as error:     # of a flow that points or cells do not resolve no step is short enough
+            raise Divergence(error.step, f"{error}; or take more rows") from None
     history = pd.DataFrame({"t": np.array(done.times)/duration(scene)[1], **done.series})
     at = seen(made.method, done.by_id())
     return {"history": history, "at": at, "numbers": numbers(scene, history, at), "dt": plan.dt,

@@ -16,8 +16,9 @@ OWN = RESULTS/"own"         # not committed
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """The command line; 0 if there is a page, 1 if there is no such method, 130 if stopped."""
-    parser = argparse.ArgumentParser(prog="python -m studies.judge", description=__doc__)
+    """The command line; 0 if a rung is passed, 1 if none is or there is no such method, 130 if stopped."""
+    parser = argparse.ArgumentParser(prog="python -m studies.judge", description=__doc__,
+                                     epilog=f"Ends with {(main.__doc__ or '').partition('; ')[2]}")
     parser.add_argument("method", help="module:Class, a class that takes a scene; or a name such as grid")
     parser.add_argument("--rows", type=int, nargs="+", default=[16, 25, 35],
                         help="points or cells over the height; a small ladder has 8 12")
@@ -35,10 +36,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         print("stopped: there is no page", file=sys.stderr)
         return 130
-    for rung, verdict in verdicts(takes):
+    told = verdicts(takes)
+    for rung, verdict in told:
         print(f"{rung.name}: {verdict.words}")
     print(write_page(name, takes, words.out))
-    return 0
+    return 0 if any(verdict.good for _, verdict in told) else 1
 
 
 def found(words: str) -> Any:
