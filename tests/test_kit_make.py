@@ -92,7 +92,7 @@ def test_a_worker_is_told_that_it_needs_the_address_of_a_scheduler_before_anythi
     (["worker", "SCHEDULER=foo"], "SCHEDULER=foo is no address of a Dask scheduler: give tcp://host:port"),
     (["study-one", "SCHEDULER=tcp://foo"], "SCHEDULER=tcp://foo is no address"),
     (["report", "SIZE=foo"], "unknown size 'foo': choose one of quick, paper, fine"),
-    (["solve", "METHODS=grid", f"PYTHON={sys.executable}"], "no variable is called METHODS; near to it is METHOD."),
+    (["solve", "METHODS=grid", f"PYTHON={sys.executable}"], "is called METHODS; near to it is METHOD."),
     (["solve", "RA=5000"], 'called RA; there are SIZE ARGS SCHEDULER SCENE METHOD ROWS NUMBERS TEXT PYTHON; '
                            'numbers of a scene go into NUMBERS="ra=5000 pr=0.7"')])
 def test_a_word_that_is_wrong_is_refused_in_one_line_before_anything_is_set_up(make, tmp_path, words, told):
@@ -102,7 +102,8 @@ def test_a_word_that_is_wrong_is_refused_in_one_line_before_anything_is_set_up(m
 
 def test_all_of_what_is_typed_reaches_a_solution(make, tmp_path):
     set_up(tmp_path, "ready")
-    code, text = make("-n", "solve", "METHOD=grid spam", "NUMBERS:=ra=1 pr=2", "ARGS=--out a=b", "OMP_NUM_THREADS=1")
+    code, text = make("-n", "solve", "METHOD=grid spam", "NUMBERS:=ra=1 pr=2", "ARGS=--out a=b",
+                      "OMP_NUM_THREADS=1")
     assert code == 0 and text.split("studies.front ")[1].split() == [
         *"rayleigh-benard grid spam --rows 16 --numbers ra=1 pr=2 --out a=b".split()]
 

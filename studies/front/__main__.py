@@ -10,14 +10,15 @@ from typing import Any
 from particles.run import Divergence
 from studies.build import SCENES
 from studies.front.solving import compare, solve
+from studies.kit.key import digest
 from studies.kit.store import RESULTS
-from studies.kit.study import parsed
+from studies.kit.study import parsed, say
 
 OWN = RESULTS/"own"         # not committed
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """The command line; 0, or 1 where a run diverged or a name is unknown."""
+    """The command line; 0, 1 where a run diverged or words are wrong, 130 if interrupted."""
     parser = argparse.ArgumentParser(prog="python -m studies.front", description=__doc__)
     parser.add_argument("scene", help=", ".join(SCENES))
     parser.add_argument("methods", nargs="+", help="such as grid, fixed-lattice, moving, spam")
@@ -29,13 +30,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--out", type=Path, default=OWN, help="folder of the picture (default: results/own)")
     words = parsed(parser, arguments)
     path = words.out/f"{words.scene}-{'-'.join(words.methods)}.png"
+    resume = path.with_name(f"{path.stem}-{digest(repr(words))[:8]}.run.h5")    # of these words alone
     try:
-        done = solution(words, path.with_suffix(".run.h5"))
-    except (ValueError, Divergence) as error:
-        print(error, file=sys.stderr)
-        return 1
-    print(done)
-    done.plot(path)
+        done = solution(words, resume)
+        print(done)
+        done.plot(path)
+    except (ValueError, TypeError, OSError, Divergence) as error:
+        return say(str(error), 1)
+    except KeyboardInterrupt:
+        kept = f"goes on from {resume}" if resume.exists() else "starts anew, nothing is kept"
+        return say(f"interrupted: the same command {kept}", 130)
+    resume.unlink(missing_ok=True)
     print(path)
     return 0
 

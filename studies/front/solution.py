@@ -65,7 +65,7 @@ class Solution:
         return pd.DataFrame(dict(zip(columns, (*x.T, *v.T, *others))))
 
     def plot(self, path: str | Path | None = None) -> Any:
-        """The figure of temperature, velocities and the history; a PNG, PDF or SVG of it at `path`, if given."""
+        """The figure of temperature, velocities and the history; at `path`, if given, a PNG, PDF or SVG."""
         return picture(self, path)
 
     def save(self, path: str | Path) -> Path:

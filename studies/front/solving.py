@@ -7,7 +7,7 @@ from difflib import get_close_matches
 from functools import partial
 from inspect import signature
 from math import ceil
-from numbers import Real
+from numbers import Integral, Real
 from pathlib import Path
 from typing import Any
 
@@ -51,6 +51,8 @@ def solve(scene: Any, method: Any, *, rows: int | None = None, seed: int = 1, ti
     of them is neither. Divergence.
     """
     positive(**{name: given for name, given in (("time", time), ("dt", dt)) if given is not None})
+    if not isinstance(seed, Integral) or seed < 0:
+        raise ValueError(f"seed must be a whole number of 0 or more, got {seed!r}: 1 is usual")
     where, chosen = placed(scene, rows, **of_scene), named(method)
     if isinstance(method, str) and method in REFERENCES:
         parts = solved(method, where)
@@ -153,7 +155,7 @@ def followed(scene: Any, made: Ready, plan: Plan, name: str, progress: bool | No
             bar.update(round(part*plan.steps) - bar.n)
         try:
             done = run(made.method, made.start, plan, tell)
-        except Divergence as error:     # of a flow that points or cells do not resolve no step is short enough
+        except Divergence as error:     # no step is short enough for a flow that is not resolved
             raise Divergence(error.step, f"{error}; or take more rows") from None
     history = pd.DataFrame({"t": np.array(done.times)/duration(scene)[1], **done.series})
     at = seen(made.method, done.by_id())
@@ -180,8 +182,9 @@ class Comparison:
         """The table, errors in units of the last digit, then what diverged."""
         rows = pd.DataFrame([row(one, {name: str(q) for name, q in one.numbers.items()})
                              for one in self.solutions])
+        table = rows.to_string(index=False, na_rep="", float_format="{:.2g}".format)
         diverged = [f"{name}: {why}" for name, why in self.diverged.items()]
-        return "\n".join([rows.to_string(index=False, na_rep="", float_format="{:.2g}".format), *diverged])
+        return "\n".join([table]*bool(self.solutions) + diverged)
 
 
 def row(one: Solution, numbers: dict[str, Any]) -> dict[str, Any]:

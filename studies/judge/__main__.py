@@ -10,7 +10,7 @@ from studies.build import variant
 from studies.judge.ladder import climb, verdicts
 from studies.judge.page import write_page
 from studies.kit.store import RESULTS
-from studies.kit.study import parsed
+from studies.kit.study import parsed, say
 
 OWN = RESULTS/"own"         # not committed
 
@@ -28,18 +28,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         method = found(words.method)
     except (ValueError, ImportError, AttributeError) as error:
-        print(error, file=sys.stderr)
-        return 1
+        return say(str(error), 1)
     name = words.method.rpartition(":")[2]
     try:
         takes = climb(method, sorted(words.rows), words.minutes)
     except KeyboardInterrupt:
-        print("stopped: there is no page", file=sys.stderr)
-        return 130
+        return say("stopped: there is no page", 130)
     told = verdicts(takes)
     for rung, verdict in told:
         print(f"{rung.name}: {verdict.words}")
-    print(write_page(name, takes, words.out))
+    try:
+        print(write_page(name, takes, words.out))
+    except OSError as error:
+        return say(str(error), 1)
     return 0 if any(verdict.good for _, verdict in told) else 1
 
 
