@@ -117,7 +117,7 @@ def below(axes: Axes, **more: Any) -> None:
 
 
 def save(page: Figure, path: Path) -> None:
-    """Write a picture, all or nothing; a figure gives the same PNG twice. Raises ValueError: of another kind."""
+    """Write a picture, all or nothing; a figure gives the same PNG twice. Raises ValueError."""
     if path.suffix not in PICTURES:
         raise ValueError(f"{path.name} ends in {path.suffix or 'nothing'}: give a name that ends in "
                          f"{', '.join(PICTURES)}")
