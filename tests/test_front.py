@@ -111,11 +111,9 @@ def test_files_hold_what_the_solution_has(convection, tmp_path):
     assert np.array_equal(mesh.point_data["velocity"][:, 1], convection.fields()["vy"])
     with pytest.raises(ValueError, match=r"run.txt ends in .txt: give a name that ends in .h5 or .vtu"):
         convection.save(tmp_path/"run.txt")
-    for kind, begins in {"png": b"\x89PNG", "pdf": b"%PDF", "svg": b"<?xml"}.items():
-        convection.plot(tmp_path/f"a.{kind}")
-        assert (tmp_path/f"a.{kind}").read_bytes().startswith(begins)
-    with pytest.raises(ValueError, match=r"a.foo ends in .foo: give a name that ends in .png, .pdf, .svg"):
-        convection.plot(tmp_path/"a.foo")
+    with pytest.raises(ValueError, match=r"a.pdf ends in .pdf: .* in .png, or .*savefig\('a.pdf'\)"):
+        convection.plot(tmp_path/"a.pdf")
+    assert not (tmp_path/"a.pdf").exists()
 
 
 def test_an_interrupted_run_goes_on_bitwise(tmp_path, monkeypatch):

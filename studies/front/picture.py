@@ -17,7 +17,7 @@ NAMES = {"rho": "density", "vx": "velocity $v_x$", "T": "temperature"}
 
 
 def picture(solution: Any, path: str | Path | None = None) -> Figure:
-    """The figure, and its PNG, PDF or SVG if a path is given."""
+    """The figure, and its PNG if a path is given."""
     many = len(solution.history) > 1
     page, axes = figure(1, 1 + many, width=5.2, squeeze=False)
     flow(axes[0, 0], solution)
@@ -46,7 +46,7 @@ def pictures(comparison: Any, path: str | Path | None = None) -> Figure:
 
 
 def written(page: Figure, path: str | Path | None) -> Figure:
-    """The figure, as a file too if a path is given."""
+    """The figure, as PNG too if a path is given."""
     if path is not None:
         page.draw_without_rendering()       # ticks may change with the layout, which then has to follow
         save(page, Path(path))

@@ -27,7 +27,6 @@ LINES = ("-", "--", "-.", ":", (0, (5, 1)), (0, (3, 1, 1, 1)), (0, (1, 1)), (0, 
 FILLS: tuple[dict[str, str], ...] = ({}, {"markerfacecolor": "white"}, *(
     {"fillstyle": half, "markerfacecoloralt": "white"} for half in ("left", "bottom")))
 
-PICTURES = ".png", ".pdf", ".svg"
 DIGIT = 6.4     # points that a digit of a tick takes
 GROWS = 1.15    # axes, at least, when the page is laid out
 BELOW = -0.42   # from axes to a legend below their label  [inches]
@@ -117,23 +116,18 @@ def below(axes: Axes, **more: Any) -> None:
 
 
 def save(page: Figure, path: Path) -> None:
-    """Write a picture, all or nothing; a figure gives the same PNG twice. Raises ValueError."""
-    if path.suffix not in PICTURES:
-        raise ValueError(f"{path.name} ends in {path.suffix or 'nothing'}: give a name that ends in "
-                         f"{', '.join(PICTURES)}")
-    write_atomic(path, compact(page) if path.suffix == ".png" else drawn(page, path.suffix[1:]))
-
-
-def drawn(page: Figure, kind: str) -> bytes:
-    """A file of this kind."""
-    file = io.BytesIO()
-    page.savefig(file, format=kind)
-    return file.getvalue()
+    """Write a PNG, all or nothing; the same figure gives the same bytes. Raises ValueError: it is no PNG."""
+    if path.suffix != ".png":
+        raise ValueError(f"{path.name} ends in {path.suffix or 'nothing'}: give a name that ends in .png, or "
+                         f"draw without a name and .savefig({path.name!r}) the figure")
+    write_atomic(path, compact(page))
 
 
 def compact(page: Figure) -> bytes:
     """A PNG of 256 colours, a third as large: blends of colours move by less than the eye sees."""
-    small, picture = io.BytesIO(), Image.open(io.BytesIO(drawn(page, "png")))
+    full, small = io.BytesIO(), io.BytesIO()
+    page.savefig(full, format="png")
+    picture = Image.open(full)
     # kmeans moves each colour of the palette to the mean of the pixels that get it
     fewer = picture.convert("RGB").quantize(256, kmeans=1, dither=Image.Dither.NONE)
     fewer.save(small, "png", optimize=True, dpi=picture.info["dpi"])
