@@ -73,7 +73,7 @@ solve: .venv/ready  ## K, Nu and a picture: make solve SCENE=cavity METHOD="grid
 	$(run) -m studies.front $(SCENE) $(METHOD) --rows $(ROWS) $(if $(NUMBERS),--numbers $(NUMBERS)) $(ARGS)
 
 # a class of one's own, module:Class, or a name as above; ARGS="--rows 8 12" is a ladder of half a minute
-judge: .venv/ready  ## a page on how good a method of your own is: make judge METHOD=examples.your_method:Cells
+judge: .venv/ready  ## a page on how good a method of your own is, and an error if no rung is passed: make judge METHOD=examples.your_method:Cells
 	$(run) -m studies.judge $(METHOD) $(ARGS)
 
 words: .venv/ready  ## every name of a method, scene, quantity, explained; TEXT=wendland shows some
