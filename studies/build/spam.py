@@ -156,7 +156,8 @@ TODAY["delta-plus-own-pressure"] = TODAY["delta-plus"]._replace(name="delta-plus
                                                                 walls=images_odd_own)
 #: what a step that vanishes would leave of a frozen fluid
 STEPS = {name: PRINTED._replace(name=name, step=OF_LIMIT/part)
-         for name, part in (("printed-quarter-step", 4), ("printed-eighth-step", 8))}
+         for name, part in (("printed-quarter-step", 4), ("printed-eighth-step", 8),
+                            ("printed-sixteenth-step", 16))}
 JOINT = "-joint"
 
 

@@ -190,6 +190,7 @@ def more() -> Iterator[Case]:
     for ra in (1e4, 3e3):
         yield from spam(ra, 16, rest, keep="history")
     yield from spam(1e4, 16, variant=VARIANTS["printed-half-step"], **VDW)
+    yield from spam(3e3, 16, rest, variant=STEPS["printed-eighth-step"], **DENSE)
     for name in ("walls-own-pressure", "walls-odd"):
         yield from spam(5e3, 50, variant=VARIANTS[name])
 
