@@ -35,7 +35,13 @@ OTHERS = {
                        means={"factor": ("of the conductivity of walls", ""),
                               "heat": ("that the sides exchange, over conduction", ""),
                               "read": ("Nu as the code reads it, from smoothed temperatures", ""),
-                              "inside": ("share of particles between the walls at the end", "")})],
+                              "inside": ("share of particles between the walls at the end", "")}),
+              Table.of("lammps", "scene style rows quantity", "value err expected commit date",
+                       about="What LAMMPS makes of our scenes; time: CPU seconds of convection, ours too.",
+                       means={"style": ("of LAMMPS, as bench/lammps_scenes.py has it", ""),
+                              "value": ("of a run, as its scene says", ""),
+                              "err": ("half width of the 95 % interval of a mean over time, else 0", ""),
+                              "expected": ("exact, or of the spectral Boussinesq fluid", "")})],
     "films": [FILMS]}
 HEAD = Path(__file__).parent/"sentences"/"tables.md"
 
