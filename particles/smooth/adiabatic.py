@@ -29,4 +29,4 @@ pair_term(Adiabatic, 3)(push)
 
 class AdiabaticMfm(Mfm):
     """The sums with it."""
-    kind = Adiabatic
+    kind = Adiabatic    # type: ignore[assignment]

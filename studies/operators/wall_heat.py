@@ -48,7 +48,7 @@ def through_pairs(points: Points, maker: str) -> np.ndarray:
 def through_faces(points: Points, make: Callable) -> np.ndarray:
     """The same over edges, kappa = 1."""
     scene, T = layer(points)
-    _, beyond = between_plates(make, points.x, *points.box, WendlandC2.of(h=3.0))
+    _, beyond = between_plates(make, points.x, *points.box, WendlandC2.of(h=3.0))      # type: ignore[call-arg]
     plate = np.array([scene.T_hot, scene.T_cold])[beyond.plate]
     flux = beyond.k*(2*plate - T[beyond.parent] - T[beyond.i])*np.where(beyond.plate == 0, 1, -1)
     return scene.L/scene.dT/scene.width*np.bincount(beyond.plate, flux, 2)
