@@ -12,6 +12,7 @@ from continuum.gas.solve import steady_on
 from continuum.scene import RayleighBenard, Torus
 from particles.limits import step_limit
 from particles.observe import PlateHeat, field_kinetic, heat_flow, particle_kinetic
+from particles.smooth.adiabatic import AdiabaticMfm
 from particles.smooth.corrected import AllCorrected, Corrected, Reversed, Symmetrised
 from particles.smooth.meshless import Crksph, Mfm
 from particles.smooth.riemann import LowDissipationSums
@@ -145,6 +146,7 @@ TODAY = {v.name: v._replace(weight=WendlandC2, walls=images_odd) for v in (
     Variant("corrected-half-step", transport=AllCorrected, step=OF_LIMIT/2),
     Variant("CRKSPH", transport=Crksph),
     Variant("MFM", transport=Mfm),
+    Variant("MFM-adiabatic", transport=AdiabaticMfm),
     Variant("riemann", transport=LowDissipationSums),
     Variant("delta-plus", transport=DeltaPlus),
     Variant("transport-velocity", transport=TransportVelocity, fraction=1.0, hydrostatic=0.0,

@@ -217,7 +217,7 @@ SHORT = ("riemann", "delta-plus", "delta-plus-own-pressure", "transport-velocity
 
 def makers() -> Iterator[Case]:
     """Today's other areas between particles; the first sizes first."""
-    for rows, name in product((25, 35, 50, 70), ("CRKSPH", "MFM", *SHORT)):
+    for rows, name in product((25, 35, 50, 70), ("CRKSPH", "MFM", "MFM-adiabatic", *SHORT)):
         if rows < 50 or name not in SHORT:
             for run in spam(1e4, rows, variant=TODAY[name], mean_from=60.0):
                 yield MakerRun(**vars(run))
