@@ -35,8 +35,8 @@ class MeanPressure(NamedTuple):
 
 
 class Dissipation(NamedTuple):
-    """|S|/2 R L psi T R^T Dw: of jumps in sound, entropy and shear what no straight line explains, psi = s^m;
-    points have gradients, edges lead along (dx, dy)    [Barth 1999; Jameson 1995]"""
+    """|S|/2 R L psi T R^T Dw: of jumps in sound, entropy and shear what no straight line explains, psi = s^m,
+    and more in shocks; points have gradients, edges lead along (dx, dy)    [Barth 1999; Jameson 1995]"""
     eos: Any
 
 
@@ -90,6 +90,15 @@ def calm(d, one, other, scale):
     return abs(one + other - 4*d) <= STILL*(abs(one - d) + 2*abs(d) + abs(other - d)) + ROUNDING*scale
 
 
+@formula
+def unturned(a, b, ab):
+    """(div v)^2/((div v)^2 + (rot v)^2) of two points, 1 where neither is CALM of sound's passage: tells a
+    shock's bend of the pressure from what holds a vortex together    [Ducros et al. 1999]"""
+    along = ab.dx*ab.dx + ab.dy*ab.dy
+    shrinks = CALM*CALM*a.c*b.c + along*((a.u_x + a.v_y)**2 + (b.u_x + b.v_y)**2)
+    return shrinks/(shrinks + along*((a.v_x - a.u_y)**2 + (b.v_x - b.u_y)**2))
+
+
 @pair_term(Dissipation, 4)
 def _(term, a, b, ab):
     sx, sy, x, y, mean = ab.sx, ab.sy, 2*ab.dx, 2*ab.dy, 0.5*(a.rho + b.rho)
@@ -122,7 +131,7 @@ def waves(eos, a, b, ab, P, r, by_x, by_y):
     of_n, n_line = bend(dun, u0*nx + v0*ny, u1*nx + v1*ny, dun)
     of_t, _ = bend(dut, v0*nx - u0*ny, v1*nx - u1*ny, dut)
     of_s, s_line = bend(drho - dP/c2, r0 - P0/c2, r1 - P1/c2, drho - (b.P - a.P)/c2)
-    sigma = min(1.0, STEEPEST*abs(P0 + P1 - 4*dP)/(a.P + b.P))
+    sigma = min(1.0, STEEPEST*unturned(a, b, ab)*abs(P0 + P1 - 4*dP)/(a.P + b.P))
     rx, ry = 0.5*(a.rx + b.rx), 0.5*(a.ry + b.ry)
     flow, fast = np.sqrt(rx*rx + ry*ry), fastest(a, b, ab)
     slow = size*np.sqrt((rx*nx + ry*ny)**2 + (SLOW*flow)**2)

@@ -26,8 +26,9 @@ SEEDS, STEPS = (1, 2, 3), (1.0, 0.5)
 #: of the flux at SAMPLES instants; the last two are counts so far
 WATCHED = {"switched": switched, "halved": lambda sums, state: sums.refused,
            "limited": lambda sums, state: sums.limited}
-#: method, column -> one more size
-LARGER = {**{(name, "Sod"): 200 for name in STABLE}, (STABLE[0], "Mach 10"): 400}
+#: method, column -> more sizes
+LARGER = {(name, "Sod"): (200,) for name in STABLE} | {(STABLE[0], "Sod"): (200, 400),
+                                                      (STABLE[0], "Mach 10"): (400,)}
 
 
 @dataclass(frozen=True)
@@ -102,7 +103,7 @@ def cases() -> Iterator[Case]:
             roomy = method == STABLE[-1] and isinstance(column.scene, Strip)
             scene = replace(column.scene, L=ROOMY) if roomy else column.scene
             common: dict[str, Any] = {"case": case, "scene": scene, "method": method}
-            small, *large = *column.sizes, *([LARGER[method, case]] if (method, case) in LARGER else [])
+            small, *large = *column.sizes, *LARGER.get((method, case), ())
             chance = "lattice" not in method and method != "grid"
             for seed in SEEDS[:3 if chance and not column.only else 1]:
                 yield Trial(**common, rows=small, seed=seed)
