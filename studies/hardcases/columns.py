@@ -17,10 +17,12 @@ from continuum.exact.shear import growing_wave, layer_with_wave
 from continuum.fluid import ConstEta, IdealGas
 from particles.fields import Fields, kinetic_energy
 from studies.build.scenes import SOUND, Scene, Start, TaylorGreen
+from studies.build.stable import BODIES
 from studies.hardcases.extremes import BEGIN, SPEED, U
 from studies.hardcases.robust import EDGES, PROBLEMS, STABLE, Strip
 from studies.hardcases.tubes import EOS, GAMMA
 
+MACH = 3.0          # of the stream past a disc
 COLD = 1e-6         # of what is as good as no temperature
 
 
@@ -158,6 +160,48 @@ class Turns(TaylorGreen):
         return {"measured": kinetic_energy(at)/kinetic_energy(first)}
 
 
+def pitot(mach: float, gamma: float) -> float:
+    """Pressure where a supersonic stream stops behind its bow shock, over its own    [Rayleigh 1910]"""
+    behind = 2*gamma/(gamma + 1)*mach**2 - (gamma - 1)/(gamma + 1)
+    return float(((gamma + 1)/2*mach**2)**(gamma/(gamma - 1))/behind**(1/(gamma - 1)))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Bow(Frictionless):
+    """A disc at rest that is suddenly in a stream of Mach 3, a sixth of the channel wide. Its wake is not yet
+    round the periodic box, and the shock has had 5 R/c to settle."""
+    eos: Any = EOS
+    speed: ClassVar[float] = MACH*GAMMA**0.5
+    takes: ClassVar[dict] = BODIES
+
+    @property
+    def width(self) -> int:  # type: ignore[override]
+        return 2*self.L
+
+    @property
+    def disc(self) -> float:
+        return self.L/12
+
+    @property
+    def time(self) -> float:
+        return 1.5*self.L/self.speed
+
+    @property
+    def fastest(self) -> float:
+        """|v| + c is largest where c = |v|/5, of a gas that spreads into the wake: v^2 + 5 c^2 stays."""
+        return float((1.2*(self.speed**2 + 5*GAMMA))**0.5)
+
+    def fields(self, x: np.ndarray) -> Start:
+        one = np.ones(len(x))
+        return one, np.stack([self.speed*one, 0*one], axis=1), one
+
+    def seen(self, first: Fields, at: Fields) -> dict[str, float]:
+        """Pressure at the foremost points of the disc."""
+        edge = np.flatnonzero(np.isclose(radii(at), self.disc))
+        front = edge[np.isclose(at.x[edge, 0], at.x[edge, 0].min())]
+        return {"measured": float((at.rho*at.T)[front].mean()/pitot(MACH, GAMMA))}
+
+
 class Column(NamedTuple):
     """A scene, its sizes, the number that decides, what it should be, how far off it may be, and why so far.
 
@@ -181,6 +225,7 @@ WAVES = OFF, 0.0, 4.0, ("a wave over w spacings costs w/4 of its jump: a shock o
                         "both ends of a fan over 2 cost 4 if each had the whole range")
 FRONT = OFF, 0.0, 1.0, "a shock is two spacings thin at best: half of that to either side"
 FLOW = LEFT, 1.0, 0.1, "a tenth, which separates right from wrong on all of the map"
+FRONT_OF_DISC = "P/exact", 1.0, 0.1, "a tenth, which separates right from wrong on all of the map"
 #: who turns a hundred times
 ONCE = tuple(dict.fromkeys(("grid", *EDGES, "moving-delaunay", *STABLE)))
 COLUMNS = {name: Column(Strip(problem=problem, cells=50), (50, 100), *WAVES)
@@ -190,4 +235,5 @@ COLUMNS = {name: Column(Strip(problem=problem, cells=50), (50, 100), *WAVES)
     "Gresho": Column(Gresho(L=24), (24, 48), *FLOW),
     "Kelvin-Helmholtz": Column(KelvinHelmholtz(L=16), (16, 32), *FLOW),
     "100 turns": Column(Turns(L=16), (16,), *FLOW, ONCE),
+    "Mach 3 body": Column(Bow(L=48), (48, 96), *FRONT_OF_DISC, tuple(BODIES)),
 }

@@ -50,8 +50,8 @@ class Swift:
 def prepared(method: str, scene: Any, seed: int, step: float) -> Ready:
     """With the usual step of the fastest flow to come; `step` : over it."""
     x, _ = of_one_mass(scene, seed) if isinstance(variant(method), Variant) else (None, None)
-    places = {} if x is None else {"x": x}
-    made, swift = ready(scene, method, seed, **places), ready(Swift(scene), method, seed, **places)
+    places, takes = {} if x is None else {"x": x}, getattr(scene, "takes", {}).get(method, method)
+    made, swift = (ready(one, takes, seed, **places) for one in (scene, Swift(scene)))
     flat = made.start.reshape(len(made.start), -1)      # of a block of the grid
     return Ready(made.method, flat, step*min(made.dt, swift.dt))
 
@@ -85,7 +85,7 @@ class Trial(Case):
 
         def look(at: Fields) -> None:
             seen.append(at._make(map(np.copy, at)))     # type: ignore[call-arg, arg-type]
-        watch: dict[str, Any] = WATCHED if self.method in STABLE else {}
+        watch: dict[str, Any] = WATCHED if "entropy-stable" in self.method else {}
         samples = SAMPLES if watch else 1
         course = followed(made, scene.time, samples, look, report, watch)
         row["reached"] = course.reached
