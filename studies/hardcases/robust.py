@@ -166,9 +166,9 @@ class SmoothFlow(Case):
 
 
 def cases() -> Iterator[Case]:
-    """Pairs in smooth flows."""
+    """Pairs in smooth flows; both pressures."""
     for scene, rows, names in SMOOTH:
         for count, name in product(rows, names):
             yield from (SmoothFlow(method=method, scene=scene, rows=count) for method in (name, PAIRS[name]))
-    for rows, method in product((16, 24), (STABLE[0], BLENDED)):
-        yield SmoothFlow(method=method, scene="rayleigh-benard", rows=rows)
+    for count, name in product((16, 24), (STABLE[0], BLENDED)):
+        yield SmoothFlow(method=name, scene="rayleigh-benard", rows=count)
