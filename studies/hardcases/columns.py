@@ -168,8 +168,8 @@ def pitot(mach: float, gamma: float) -> float:
 
 @dataclass(frozen=True, kw_only=True)
 class Bow(Frictionless):
-    """A disc at rest that is suddenly in a stream of Mach 3, a sixth of the channel wide. Its wake is not yet
-    round the periodic box, and the shock has had 5 R/c to settle."""
+    """A disc at rest that is suddenly in a stream of Mach 3, a sixth of the channel wide. The shock has had 5
+    R/c to settle, and no wave has come round the periodic box."""
     eos: Any = EOS
     speed: ClassVar[float] = MACH*GAMMA**0.5
     takes: ClassVar[dict] = BODIES
@@ -184,7 +184,7 @@ class Bow(Frictionless):
 
     @property
     def time(self) -> float:
-        return 1.5*self.L/self.speed
+        return 1.7*self.L/self.fastest
 
     @property
     def fastest(self) -> float:

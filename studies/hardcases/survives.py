@@ -70,6 +70,7 @@ CLAIMS = (
     Claim(id="own-stable-body", source="Rayleigh 1910", expect=1.0, within=0.1,
           value=farthest("trials", "measured", case="Mach 3 body", method=HELD),
           because="a tenth, which separates right from wrong on all of the map",
+          after="waves had come round the periodic box before runs were looked at, and times were cut",
           statement="points around a disc in a stream of Mach 3, with the flux: pressure at its front over "
                     "the exact one, the farthest of 48 and 96 rows"),
     Claim(id="own-stable-sod", source="Sod 1978", at_most=1.0,
