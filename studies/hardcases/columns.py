@@ -16,30 +16,14 @@ from continuum.exact.blast import blast
 from continuum.exact.shear import growing_wave, layer_with_wave
 from continuum.fluid import ConstEta, IdealGas
 from particles.fields import Fields, kinetic_energy
-from studies.build.scenes import SOUND, Scene, Start, TaylorGreen
+from studies.build.scenes import SOUND, Start, TaylorGreen
 from studies.build.stable import BODIES
 from studies.hardcases.extremes import BEGIN, SPEED, U
-from studies.hardcases.robust import EDGES, PROBLEMS, STABLE, Strip
+from studies.hardcases.impacts import Bow, Frictionless, Ripple, radii
+from studies.hardcases.robust import BLENDED, EDGES, PROBLEMS, STABLE, Strip
 from studies.hardcases.tubes import EOS, GAMMA
 
-MACH = 3.0          # of the stream past a disc
 COLD = 1e-6         # of what is as good as no temperature
-
-
-def radii(at: Fields) -> np.ndarray:
-    """(n,) from the middle of the box."""
-    return np.hypot(*at.x.T)
-
-
-@dataclass(frozen=True, kw_only=True)
-class Frictionless(Scene):
-    """A square of L rows of a gas without viscosity."""
-    L: int
-    law: ConstEta = ConstEta(0.0, 0.0)  # noqa: RUF009 (immutable)
-
-    @property
-    def width(self) -> int:  # type: ignore[override]
-        return self.L
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -160,48 +144,6 @@ class Turns(TaylorGreen):
         return {"measured": kinetic_energy(at)/kinetic_energy(first)}
 
 
-def pitot(mach: float, gamma: float) -> float:
-    """Pressure where a supersonic stream stops behind its bow shock, over its own    [Rayleigh 1910]"""
-    behind = 2*gamma/(gamma + 1)*mach**2 - (gamma - 1)/(gamma + 1)
-    return float(((gamma + 1)/2*mach**2)**(gamma/(gamma - 1))/behind**(1/(gamma - 1)))
-
-
-@dataclass(frozen=True, kw_only=True)
-class Bow(Frictionless):
-    """A disc at rest that is suddenly in a stream of Mach 3, a sixth of the channel wide. The shock has had 5
-    R/c to settle, and no wave has come round the periodic box."""
-    eos: Any = EOS
-    speed: ClassVar[float] = MACH*GAMMA**0.5
-    takes: ClassVar[dict] = BODIES
-
-    @property
-    def width(self) -> int:  # type: ignore[override]
-        return 2*self.L
-
-    @property
-    def disc(self) -> float:
-        return self.L/12
-
-    @property
-    def time(self) -> float:
-        return 1.7*self.L/self.fastest
-
-    @property
-    def fastest(self) -> float:
-        """|v| + c is largest where c = |v|/5, of a gas that spreads into the wake: v^2 + 5 c^2 stays."""
-        return float((1.2*(self.speed**2 + 5*GAMMA))**0.5)
-
-    def fields(self, x: np.ndarray) -> Start:
-        one = np.ones(len(x))
-        return one, np.stack([self.speed*one, 0*one], axis=1), one
-
-    def seen(self, first: Fields, at: Fields) -> dict[str, float]:
-        """Pressure at the foremost points of the disc."""
-        edge = np.flatnonzero(np.isclose(radii(at), self.disc))
-        front = edge[np.isclose(at.x[edge, 0], at.x[edge, 0].min())]
-        return {"measured": float((at.rho*at.T)[front].mean()/pitot(MACH, GAMMA))}
-
-
 class Column(NamedTuple):
     """A scene, its sizes, the number that decides, what it should be, how far off it may be, and why so far.
 
@@ -224,8 +166,8 @@ OFF, LEFT = "spacings off", "left/start"
 WAVES = OFF, 0.0, 4.0, ("a wave over w spacings costs w/4 of its jump: a shock over 3, a contact over 8, "
                         "both ends of a fan over 2 cost 4 if each had the whole range")
 FRONT = OFF, 0.0, 1.0, "a shock is two spacings thin at best: half of that to either side"
-FLOW = LEFT, 1.0, 0.1, "a tenth, which separates right from wrong on all of the map"
-FRONT_OF_DISC = "P/exact", 1.0, 0.1, "a tenth, which separates right from wrong on all of the map"
+A_TENTH = "a tenth, which separates right from wrong on all of the map"
+FLOW = LEFT, 1.0, 0.1, A_TENTH
 #: who turns a hundred times
 ONCE = tuple(dict.fromkeys(("grid", *EDGES, "moving-delaunay", *STABLE)))
 COLUMNS = {name: Column(Strip(problem=problem, cells=50), (50, 100), *WAVES)
@@ -235,5 +177,7 @@ COLUMNS = {name: Column(Strip(problem=problem, cells=50), (50, 100), *WAVES)
     "Gresho": Column(Gresho(L=24), (24, 48), *FLOW),
     "Kelvin-Helmholtz": Column(KelvinHelmholtz(L=16), (16, 32), *FLOW),
     "100 turns": Column(Turns(L=16), (16,), *FLOW, ONCE),
-    "Mach 3 body": Column(Bow(L=48), (48, 96), *FRONT_OF_DISC, tuple(BODIES)),
+    "Mach 3 body": Column(Bow(L=48), (48, 96), "P/exact", 1.0, 0.1, A_TENTH, tuple(BODIES)),
+    "shocked ripple": Column(Ripple(L=200), (200, 400), "growth/theory", 1.0, 0.1, A_TENTH,
+                             (EDGES[0], STABLE[0], BLENDED)),
 }

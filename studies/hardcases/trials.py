@@ -14,7 +14,7 @@ from studies.build.scenes import Start
 from studies.build.setting import Ready
 from studies.build.spam import Variant
 from studies.hardcases.columns import COLUMNS
-from studies.hardcases.robust import ROOMY, SAMPLES, STABLE, Strip
+from studies.hardcases.robust import BLENDED, HELD, ROOMY, SAMPLES, STABLE, Strip
 from studies.hardcases.survival import followed
 from studies.kit.case import Case, Outcome, Report
 
@@ -27,7 +27,8 @@ SEEDS, STEPS = (1, 2, 3), (1.0, 0.5)
 WATCHED = {"switched": switched, "halved": lambda sums, state: sums.refused,
            "limited": lambda sums, state: sums.limited}
 #: method, column -> one more size
-LARGER = {**{(name, "Sod"): 200 for name in STABLE}, (STABLE[0], "Mach 10"): 400}
+LARGER = {**{(name, "Sod"): 200 for name in STABLE}, (STABLE[0], "Mach 10"): 400,
+          (HELD, "Mach 3 body"): 192, **{(name, "shocked ripple"): 800 for name in (STABLE[0], BLENDED)}}
 
 
 @dataclass(frozen=True)
