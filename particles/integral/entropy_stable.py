@@ -5,13 +5,16 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from continuum.fluid import sound_speed
+import particles.integral.van_der_waals  # noqa: F401  (registers its formulas)
+from continuum.fluid import IdealGas, energy, sound_speed
 from continuum.jit import check_formulas, jit
-from particles.integral.entropy_fluxes import Dissipation, Logarithmic, log_means
+from particles.integral.edges import NONE_BEYOND, NOWHERE
+from particles.integral.entropy_fluxes import BlendedPressure, Dissipation, Logarithmic, log_means
 from particles.integral.exchange import Listing, Pressure, pressure_of
-from particles.integral.fixed import Point, stored
+from particles.integral.fixed import FixedSums, Point, stored
 from particles.integral.layer import Layer, LayerSums
 from particles.integral.positive import COURANT, LEAST, MORE, OLD, PART, Limits, Slopes, divided
+from particles.integral.stream import Stream, Streaming, keep
 from particles.limits import limit_of
 from particles.pairs import Faces, sweep
 from particles.threads import Threads
@@ -25,21 +28,21 @@ def _sound(first, last, eos, points):
     for i in range(first, last):
         a = points[i]
         a.P, a.rx, a.ry = pressure_of(eos, a.rho, a.T), -a.vx, -a.vy
-        a.c = sound_speed(eos, a.rho, eos.cv*a.T)
+        a.c = sound_speed(eos, a.rho, energy(eos, a.rho, a.T))
 
 
-class StableSums(Limits, LayerSums):
-    """The compiled sums."""
-    method: "StableLayer"
+class Stable(Limits, FixedSums):
+    """What compiled sums over stored edges share, before those of a kind of scene."""
 
-    def __init__(self, method: "StableLayer", threads: Threads):
-        super().__init__(method, threads)
-        n, beyond = self.n, method.beyond
+    def __init__(self, method: Any, threads: Threads):
+        super().__init__(method, threads)  # type: ignore[call-arg]
+        n, beyond = self.n, getattr(method, "beyond", NONE_BEYOND)
+        image = getattr(self, "image", NOWHERE)
         self.set_limits(method.flow)
         self.points = np.zeros(len(self.points), StablePoint)
-        self.points["g"][n:] = method.g
+        self.points["g"][n:] = -self.push[1]
         near, far = replace(method.edges, S=2*method.edges.apart), replace(beyond, S=2*beyond.apart)
-        along = stored(near, far, n + self.image)
+        along = stored(near, far, n + image)
         edges = Faces(**self.at.edges._asdict(), dx=along.sx, dy=along.sy)
         self.at, self.edges = self.at._replace(points=self.points, edges=edges), edges
         self.images = self.at.images
@@ -48,7 +51,7 @@ class StableSums(Limits, LayerSums):
         self.spread = k/self.at.V
 
     def surround(self, state: np.ndarray) -> None:
-        """Images; gradients, of images as in a mirror."""
+        """Images and held points; gradients, of images as in a mirror."""
         super().surround(state)
         points, V = self.points, self.at.V
         self.threads(_sound, len(points), self.method.eos, points)
@@ -70,6 +73,28 @@ class StableSums(Limits, LayerSums):
             return False
         state += less
         return True
+
+
+class StableSums(Stable, LayerSums):
+    """Of a layer."""
+    method: "StableLayer"
+
+
+class StableStreaming(Stable, Streaming):
+    """Around held points. received (m, 3) : what they take, after `euler` the mean over it, with limits."""
+    method: "StableStream"
+
+    def settle(self) -> None:
+        """Held points take what would change their velocity or temperature."""
+        held, kept = self.method.held, np.empty((4, self.n))
+        keep(self.method.eos, *held[:3], self.gain, np.ones(self.n), self.points, self.more, kept)
+        self.gain[held.which] = kept[:, held.which].T
+
+    def euler(self, state: np.ndarray, dt: float, rates: np.ndarray) -> bool:
+        self.more = np.zeros_like(self.received)
+        done = super().euler(state, dt, rates)
+        self.received += self.more
+        return done
 
 
 class Positive:
@@ -101,6 +126,15 @@ class Positive:
         return done
 
 
+def flow_of(method: Any, pressure: Any) -> None:
+    """Gives a method the usual terms if it lists none: a pressure for an ideal gas, the blended one for
+    others. Raises TypeError: its fluid has no entropy."""
+    eos = method.eos
+    check_formulas(eos, log_means)
+    chosen = pressure if isinstance(eos, IdealGas) else BlendedPressure
+    object.__setattr__(method, "flow", method.flow or (Logarithmic(eos), chosen(eos), Dissipation(eos)))
+
+
 @dataclass(frozen=True, kw_only=True)
 class StableLayer(Layer):
     """A layer of a fluid with an entropy. flow : listed terms in place of convection and pressure."""
@@ -110,13 +144,34 @@ class StableLayer(Layer):
     sums = StableSums
 
     def __post_init__(self):
-        check_formulas(self.eos, log_means)
-        usual = Logarithmic(self.eos), Pressure(self.eos), Dissipation(self.eos)
-        object.__setattr__(self, "flow", self.flow or usual)
+        flow_of(self, Pressure)
+
+
+@dataclass(frozen=True, kw_only=True)
+class StableStream(Stream):
+    """The same around held points."""
+    flow: tuple = ()
+
+    integrator: ClassVar[type] = Positive
+    sums = StableStreaming
+
+    def __post_init__(self):
+        super().__post_init__()
+        flow_of(self, Pressure)
+
+
+def longest(method: Any, start: np.ndarray) -> float:
+    """The step that keeps a start positive."""
+    sums = method.start(start.shape[1], Threads(1))
+    sums.look_at(start)
+    return float(sums.longest())
 
 
 @limit_of.register
 def _(method: StableLayer, start: np.ndarray) -> float:
-    sums = method.start(start.shape[1], Threads(1))
-    sums.look_at(start)
-    return sums.longest()
+    return longest(method, start)
+
+
+@limit_of.register
+def _(method: StableStream, start: np.ndarray) -> float:
+    return longest(method, start)

@@ -9,10 +9,10 @@ from typing import Any
 
 import numpy as np
 
-from continuum.jit import check_formulas
 from particles.integral import march
 from particles.integral.carried import EXCHANGED, complete, follow, heat, hold, read, receive
-from particles.integral.entropy_fluxes import Dissipation, Logarithmic, MeanPressure, log_means
+from particles.integral.entropy_fluxes import MeanPressure
+from particles.integral.entropy_stable import flow_of
 from particles.integral.exchange import Listing
 from particles.integral.fixed import NO_IMAGES, check_number, first_invalid
 from particles.integral.moving_delaunay import MovingDelaunay, RingSums
@@ -201,9 +201,7 @@ class StableDelaunay(MovingDelaunay):
 
     def __post_init__(self):
         super().__post_init__()
-        check_formulas(self.eos, log_means)
-        usual = Logarithmic(self.eos), MeanPressure(self.eos), Dissipation(self.eos)
-        object.__setattr__(self, "flow", self.flow or usual)
+        flow_of(self, MeanPressure)
 
     def start(self, n: int, threads: Threads) -> StableRings:
         """The sums over the triangulation. Raises ValueError: a state of another number of points."""

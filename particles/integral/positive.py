@@ -8,7 +8,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.jit import formula, jit
+from continuum.fluid import IdealGas
+from continuum.jit import formula, generic, jit
 from particles.integral.entropy_fluxes import Dissipation, against, fastest
 from particles.integral.exchange import Listing
 from particles.integral.fixed import first_invalid, inner
@@ -115,6 +116,7 @@ class Limits:
         """Room, for the listed terms that limits are for."""
         self.refused, self.limited, self.lost = 0, 0, self.n
         self.excess, self.gain = Excess(Listing(flow)), np.zeros((self.n, 4))
+        self.leaves_out = limited(self.method.eos, self.excess)
         self.slopes = np.zeros((self.n, 9))
 
     @property
@@ -126,20 +128,26 @@ class Limits:
     def less(self, before: np.ndarray, after: np.ndarray, per_V: np.ndarray) -> Any:
         """What a step, per volume (n,), from densities (4, n) to those after may not take, to be added again;
         None if not even Rusanov's flux leaves rho, e > 0."""
-        n, points, edges = self.n, self.points, self.edges
-        if not sum(self.threads(fallen, n, before, after)):
+        n, points, edges, eos = self.n, self.points, self.edges, self.method.eos
+        if not (crowded(eos, before, after)
+                or sum(self.threads(fallen, n, above_cold(eos, before), above_cold(eos, after)))):
             return 0.0
         self.limited += 1
         self.threads(sweep, n, self.excess, points, edges, self.gain)
+        self.settle()
         low = after - per_V*self.gain.T
-        self.lost = first_invalid(low, self.method.eos)
+        self.lost = first_invalid(low, eos)
         if self.lost < n:
             return None
-        for name, values in zip(LOW, (*low, per_V*edges.taken)):
+        for name, values in zip(LOW, (*above_cold(eos, low), per_V*edges.taken)):
             points[name][:n] = values
         self.images.fill(points, tuple(set(LOW) - {"low_py"}), ("low_py",))
-        self.threads(sweep, n, Limited(self.excess), points, edges, self.gain)
+        self.threads(sweep, n, self.leaves_out, points, edges, self.gain)
+        self.settle()
         return per_V*self.gain.T
+
+    def settle(self) -> None:
+        """Changes what was summed up for points that are held; there are none."""
 
 
 @jit
@@ -160,3 +168,23 @@ def fallen(first, last, before, after):
         new, later = inner(after[0, i], after[1, i], after[2, i], after[3, i])
         count += not (new > KEPT*rho and new*later > KEPT*rho*e)
     return count
+
+
+@generic
+def above_cold(eos, state):
+    """Densities (4, n), the energy without what the fluid has at T = 0, which may not fall to 0 either."""
+
+
+@generic
+def crowded(eos, before, after):
+    """Have points lost most of the room that is between molecules?"""
+
+
+@generic
+def limited(eos, excess):
+    """The term that says what edges leave out."""
+
+
+above_cold.of(IdealGas)(lambda eos, state: state)
+crowded.of(IdealGas)(lambda eos, before, after: False)
+limited.of(IdealGas)(lambda eos, excess: Limited(excess))

@@ -14,7 +14,7 @@ from studies.build.scenes import Start
 from studies.build.setting import Ready
 from studies.build.spam import Variant
 from studies.hardcases.columns import COLUMNS
-from studies.hardcases.robust import ROOMY, SAMPLES, STABLE, Strip
+from studies.hardcases.robust import BLENDED, HELD, ROOMY, SAMPLES, STABLE, Strip
 from studies.hardcases.survival import followed
 from studies.kit.case import Case, Outcome, Report
 
@@ -27,8 +27,9 @@ SEEDS, STEPS = (1, 2, 3), (1.0, 0.5)
 WATCHED = {"switched": switched, "halved": lambda sums, state: sums.refused,
            "limited": lambda sums, state: sums.limited}
 #: method, column -> more sizes
-LARGER = {(name, "Sod"): (200,) for name in STABLE} | {(STABLE[0], "Sod"): (200, 400),
-                                                      (STABLE[0], "Mach 10"): (400,)}
+LARGER = {**{(name, "Sod"): (200,) for name in STABLE}, (STABLE[0], "Sod"): (200, 400),
+          (STABLE[0], "Mach 10"): (400,), (HELD, "Mach 3 body"): (192,),
+          **{(name, "shocked ripple"): (800,) for name in (STABLE[0], BLENDED)}}
 
 
 @dataclass(frozen=True)
@@ -51,8 +52,8 @@ class Swift:
 def prepared(method: str, scene: Any, seed: int, step: float) -> Ready:
     """With the usual step of the fastest flow to come; `step` : over it."""
     x, _ = of_one_mass(scene, seed) if isinstance(variant(method), Variant) else (None, None)
-    places = {} if x is None else {"x": x}
-    made, swift = ready(scene, method, seed, **places), ready(Swift(scene), method, seed, **places)
+    places, takes = {} if x is None else {"x": x}, getattr(scene, "takes", {}).get(method, method)
+    made, swift = (ready(one, takes, seed, **places) for one in (scene, Swift(scene)))
     flat = made.start.reshape(len(made.start), -1)      # of a block of the grid
     return Ready(made.method, flat, step*min(made.dt, swift.dt))
 
@@ -86,7 +87,7 @@ class Trial(Case):
 
         def look(at: Fields) -> None:
             seen.append(at._make(map(np.copy, at)))     # type: ignore[call-arg, arg-type]
-        watch: dict[str, Any] = WATCHED if self.method in STABLE else {}
+        watch: dict[str, Any] = WATCHED if "entropy-stable" in self.method else {}
         samples = SAMPLES if watch else 1
         course = followed(made, scene.time, samples, look, report, watch)
         row["reached"] = course.reached
