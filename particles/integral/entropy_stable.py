@@ -1,5 +1,5 @@
 """Layers whose flux survives shocks and vacua: listed `entropy_fluxes`, and steps that are `positive`."""
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from math import ceil, inf
 from typing import Any, ClassVar
 
@@ -9,7 +9,7 @@ from continuum.fluid import sound_speed
 from continuum.jit import check_formulas, jit
 from particles.integral.entropy_fluxes import Dissipation, Logarithmic, log_means
 from particles.integral.exchange import Listing, Pressure, pressure_of
-from particles.integral.fixed import Point, stored
+from particles.integral.fixed import Point, driven, stored
 from particles.integral.layer import Layer, LayerSums
 from particles.integral.positive import COURANT, LEAST, MORE, OLD, PART, Limits, Slopes, divided
 from particles.limits import limit_of
@@ -43,7 +43,8 @@ class StableSums(Limits, LayerSums):
         edges = Faces(**self.at.edges._asdict(), dx=along.sx, dy=along.sy)
         self.at, self.edges = self.at._replace(points=self.points, edges=edges), edges
         self.images = self.at.images
-        self.exchange.term = Listing((*method.transport, *method.flow))
+        self.exchange.term = Listing(method.transport)
+        self.sending.follow(edges)
         k = 2*np.bincount(beyond.i, beyond.k, n) - method.edges.laplacian.diagonal()
         self.spread = k/self.at.V
 
@@ -56,10 +57,15 @@ class StableSums(Limits, LayerSums):
         self.threads(divided, self.n, self.slopes, V, points)
         self.at.images.fill(points, ("rho_x", "P_x", "u_x", "v_y"), ("rho_y", "P_y", "u_y", "v_x"))
 
+    def rates(self, state: np.ndarray, out: np.ndarray) -> None:
+        self.look_at(state)
+        total = self.exchange.sum(self.at)
+        self.sending.add(self.points, self.slopes, total)
+        self.threads(driven, self.n, total, self.at.V, self.points, self.push, out)
+
     def longest(self) -> float:
         """The step that is known to keep a state positive that was looked at."""
-        sound = self.slopes[:, 8]
-        return float(1/PART/np.max(sound/self.at.V/COURANT + self.spread*self.chi))
+        return float(1/PART/np.max(self.speeds/self.at.V/COURANT + self.spread*self.chi))
 
     def euler(self, state: np.ndarray, dt: float, rates: np.ndarray) -> bool:
         """Go on by dt from a state with these rates; False: not even Rusanov's flux leaves rho, e > 0."""
@@ -113,6 +119,15 @@ class StableLayer(Layer):
         check_formulas(self.eos, log_means)
         usual = Logarithmic(self.eos), Pressure(self.eos), Dissipation(self.eos)
         object.__setattr__(self, "flow", self.flow or usual)
+        for name in ("edges", "beyond"):        # as at the end of a weight's range
+            object.__setattr__(self, name, of_some_area(getattr(self, name)))
+
+
+def of_some_area(edges: Any) -> Any:
+    """Edges that anything passes."""
+    some = (edges.k != 0) | edges.S.any(axis=1)
+    return replace(edges, **{field.name: getattr(edges, field.name)[some] for field in fields(edges)
+                             if field.name != "V"})
 
 
 @limit_of.register

@@ -1,0 +1,142 @@
+"""Exchange over edges that are evaluated once each, many at a time: what one end gains the other loses.
+
+For terms without a branch, so that a loop over edges becomes vector instructions; dissipation, which has one,
+follows at the few edges that a first look finds astir. Blocks of edges are the same however many threads
+there are, and points add up what their edges bring in the order of their rows: so are results.
+"""
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from continuum.jit import jit, jit_apart, jit_records
+from particles.integral.entropy_fluxes import Dissipation, Logarithmic, astir, jumps
+from particles.integral.exchange import Listing
+from particles.neighbours import u32, u64
+from particles.pairs import Face, Faces, rate
+from particles.threads import Threads
+
+BLOCK = u64(64)
+Sent = np.dtype([(name, "f8") for name in ("m", "px", "py", "e")])
+
+
+class Once(NamedTuple):
+    """Edges from points i to `near`, as `Faces` have them at their row of i; and of each entry of rows which
+    edge it is, and whether it is its beginning (1) or its end (-1). Behind the last edge come some of no area.
+    """
+    i: np.ndarray
+    near: np.ndarray
+    sx: np.ndarray
+    sy: np.ndarray
+    k: np.ndarray
+    dx: np.ndarray
+    dy: np.ndarray
+    edge: np.ndarray
+    sign: np.ndarray
+
+
+def empty_once(entries: int) -> Once:
+    """Room for edges of rows that have so many entries."""
+    size = -(-entries//int(BLOCK))*int(BLOCK)
+    return Once(*np.zeros((2, size), u32), *np.zeros((5, size)), np.zeros(entries, u32), np.zeros(entries))
+
+
+@jit
+def fill_once(n, edges, once):
+    """Find the edges of n rows: their number. An edge whose way back is in no row is one of its own."""
+    count = u64(0)
+    for i in range(u64(n)):
+        for e in range(edges.first[i], edges.first[i] + edges.taken[i]):
+            j, back = edges.near[e], edges.first[i]
+            if j < i:
+                back = way_back(i, e, edges)
+            if j < i and back < edges.first[i]:
+                once.edge[e], once.sign[e] = once.edge[back], -1.0
+                continue
+            once.i[count], once.near[count], once.edge[e], once.sign[e] = i, j, count, 1.0
+            once.sx[count], once.sy[count], once.k[count] = edges.sx[e], edges.sy[e], edges.k[e]
+            once.dx[count], once.dy[count] = edges.dx[e], edges.dy[e]
+            count += u64(1)
+    once.sx[count:], once.sy[count:] = 0.0, 0.0
+    return count
+
+
+@jit
+def way_back(i, e, edges):
+    """The entry of the same edge in its other end's row, which a narrow box may name more than once; e for
+    none."""
+    j, sx, sy = edges.near[e], edges.sx[e], edges.sy[e]
+    found, least = e, 1e-6*(abs(sx) + abs(sy)) + 1e-300
+    for back in range(edges.first[j], edges.first[j] + edges.taken[j]):
+        off = abs(edges.sx[back] + sx) + abs(edges.sy[back] + sy)
+        if edges.near[back] == i and off < least:
+            found, least = back, off
+    return found
+
+
+@jit_apart
+def _send(first, last, flow, own, points, once, sent):
+    """What terms bring along edges, less the pressure of one end and of the other in equal parts."""
+    for block in range(u64(first), u64(last)):
+        for h in range(block*BLOCK, (block + u64(1))*BLOCK):
+            a, b = points[once.i[h]], points[once.near[h]]
+            ab, q = Face(once.sx[h], once.sy[h], once.k[h], once.dx[h], once.dy[h]), sent[h]
+            m, px, py, e = rate(flow, a, b, ab)
+            less = own*(b.P + b.hydro - a.P)
+            q.m, q.px, q.py, q.e = m, px + less*ab.sx, py + less*ab.sy, e
+
+
+@jit_apart
+def _stir(first, last, term, points, once, stirred, sent):
+    """Look for edges astir, and add what they dissipate."""
+    for block in range(u64(first), u64(last)):
+        for h in range(block*BLOCK, (block + u64(1))*BLOCK):
+            a, b = points[once.i[h]], points[once.near[h]]
+            ab = Face(once.sx[h], once.sy[h], once.k[h], once.dx[h], once.dy[h])
+            stirred[h] = astir(a, b, ab, *jumps(a, b, ab))
+        for h in range(block*BLOCK, (block + u64(1))*BLOCK):
+            if stirred[h]:
+                ab, q = Face(once.sx[h], once.sy[h], once.k[h], once.dx[h], once.dy[h]), sent[h]
+                m, px, py, e = rate(term, points[once.i[h]], points[once.near[h]], ab)
+                q.m, q.px, q.py, q.e = q.m + m, q.px + px, q.py + py, q.e + e
+
+
+@jit_records
+def _receive(first, last, own, slopes, edges, once, sent, total):
+    """Add to points what their edges bring, and what their own pressure leaves of others'."""
+    for i in range(u64(first), u64(last)):
+        m, px, py, e = total[i, 0], total[i, 1], total[i, 2], total[i, 3]
+        for k in range(edges.first[i], edges.first[i] + edges.taken[i]):
+            q, sign = sent[once.edge[k]], once.sign[k]
+            m, px, py, e = m + sign*q.m, px + sign*q.px, py + sign*q.py, e + sign*q.e
+        total[i, 0], total[i, 1], total[i, 2], total[i, 3] = m, px - own*slopes[i, 3], py - own*slopes[i, 7], e
+
+
+class Sending:
+    """Listed terms over edges, each edge once. slopes : of `positive.Slopes`."""
+
+    def __init__(self, flow: tuple, n: int, threads: Threads):
+        self.n, self.threads = n, threads
+        self.rough = tuple(term for term in flow if isinstance(term, Dissipation))
+        self.flow = tuple(term for term in flow if not isinstance(term, Dissipation))
+        # a pressure leaves out a row's own
+        self.own = float(any(not isinstance(term, Logarithmic) for term in self.flow))
+        self.once, self.sent = empty_once(0), np.zeros(0, Sent)
+
+    def follow(self, edges: Faces) -> None:
+        """Take these edges."""
+        if len(edges.near) != len(self.once.edge):
+            self.once = empty_once(len(edges.near))
+            self.stirred, self.sent = np.zeros(len(self.once.i), bool), np.zeros(len(self.once.i), Sent)
+        self.edges, count = edges, fill_once(self.n, edges, self.once)
+        self.blocks = -(-int(count)//int(BLOCK))
+
+    def add(self, points: np.ndarray, slopes: np.ndarray, total: np.ndarray) -> None:
+        """Add to what points gain (n, 4)."""
+        threads, once, sent = self.threads, self.once, self.sent
+        if self.flow:
+            threads(_send, self.blocks, Listing(self.flow), self.own, points, once, sent)
+        else:
+            sent.fill(0)
+        for term in self.rough:
+            threads(_stir, self.blocks, term, points, once, self.stirred, sent)
+        threads(_receive, self.n, self.own, slopes, self.edges, once, sent, total)
