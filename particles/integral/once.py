@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.jit import jit, jit_apart, jit_records
+from continuum.jit import formula, jit, jit_apart, jit_records
 from particles.integral.entropy_fluxes import Dissipation, Logarithmic, astir, jumps
 from particles.integral.exchange import Listing
 from particles.neighbours import u32, u64
@@ -32,6 +32,11 @@ class Once(NamedTuple):
     dy: np.ndarray
     edge: np.ndarray
     sign: np.ndarray
+
+
+@formula
+def edge_at(once, h):
+    return Face(once.sx[h], once.sy[h], once.k[h], once.dx[h], once.dy[h])
 
 
 def empty_once(entries: int) -> Once:
@@ -76,28 +81,29 @@ def way_back(i, e, edges):
 @jit_apart
 def _send(first, last, flow, own, points, once, sent):
     """What terms bring along edges, less the pressure of one end and of the other in equal parts."""
-    for block in range(u64(first), u64(last)):
-        for h in range(block*BLOCK, (block + u64(1))*BLOCK):
-            a, b = points[once.i[h]], points[once.near[h]]
-            ab, q = Face(once.sx[h], once.sy[h], once.k[h], once.dx[h], once.dy[h]), sent[h]
-            m, px, py, e = rate(flow, a, b, ab)
-            less = own*(b.P + b.hydro - a.P)
-            q.m, q.px, q.py, q.e = m, px + less*ab.sx, py + less*ab.sy, e
+    for h in range(u64(first)*BLOCK, u64(last)*BLOCK):
+        a, b, ab, q = points[once.i[h]], points[once.near[h]], edge_at(once, h), sent[h]
+        m, px, py, e = rate(flow, a, b, ab)
+        less = own*(b.P + b.hydro - a.P)
+        q.m, q.px, q.py, q.e = m, px + less*ab.sx, py + less*ab.sy, e
 
 
 @jit_apart
+def _look(first, last, points, once, stirred):
+    """Look for edges astir."""
+    for h in range(u64(first)*BLOCK, u64(last)*BLOCK):
+        a, b, ab = points[once.i[h]], points[once.near[h]], edge_at(once, h)
+        stirred[h] = astir(a, b, ab, *jumps(a, b, ab))
+
+
+@jit
 def _stir(first, last, term, points, once, stirred, sent):
-    """Look for edges astir, and add what they dissipate."""
-    for block in range(u64(first), u64(last)):
-        for h in range(block*BLOCK, (block + u64(1))*BLOCK):
-            a, b = points[once.i[h]], points[once.near[h]]
-            ab = Face(once.sx[h], once.sy[h], once.k[h], once.dx[h], once.dy[h])
-            stirred[h] = astir(a, b, ab, *jumps(a, b, ab))
-        for h in range(block*BLOCK, (block + u64(1))*BLOCK):
-            if stirred[h]:
-                ab, q = Face(once.sx[h], once.sy[h], once.k[h], once.dx[h], once.dy[h]), sent[h]
-                m, px, py, e = rate(term, points[once.i[h]], points[once.near[h]], ab)
-                q.m, q.px, q.py, q.e = q.m + m, q.px + px, q.py + py, q.e + e
+    """Add what they dissipate."""
+    for h in range(u64(first)*BLOCK, u64(last)*BLOCK):
+        if stirred[h]:
+            q = sent[h]
+            m, px, py, e = rate(term, points[once.i[h]], points[once.near[h]], edge_at(once, h))
+            q.m, q.px, q.py, q.e = q.m + m, q.px + px, q.py + py, q.e + e
 
 
 @jit_records
@@ -138,5 +144,6 @@ class Sending:
         else:
             sent.fill(0)
         for term in self.rough:
+            threads(_look, self.blocks, points, once, self.stirred)
             threads(_stir, self.blocks, term, points, once, self.stirred, sent)
         threads(_receive, self.n, self.own, slopes, self.edges, once, sent, total)
