@@ -8,7 +8,7 @@ import numpy as np
 from continuum.fluid import sound_speed
 from continuum.jit import check_formulas, jit
 from particles.integral.entropy_fluxes import Dissipation, Logarithmic, log_means
-from particles.integral.exchange import Listing, Pressure, pressure_of
+from particles.integral.exchange import Pressure, pressure_of
 from particles.integral.fixed import Point, driven, stored
 from particles.integral.layer import Layer, LayerSums
 from particles.integral.positive import COURANT, LEAST, MORE, OLD, PART, Limits, Slopes, divided
@@ -28,6 +28,15 @@ def _sound(first, last, eos, points):
         a.c = sound_speed(eos, a.rho, eos.cv*a.T)
 
 
+@jit
+def _mirrored(parent, points, n):
+    """Gradients of images."""
+    for m in range(len(parent)):
+        a, b = points[parent[m]], points[n + m]
+        b.rho_x, b.P_x, b.u_x, b.v_y = a.rho_x, a.P_x, a.u_x, a.v_y
+        b.rho_y, b.P_y, b.u_y, b.v_x = -a.rho_y, -a.P_y, -a.u_y, -a.v_x
+
+
 class StableSums(Limits, LayerSums):
     """The compiled sums."""
     method: "StableLayer"
@@ -43,7 +52,6 @@ class StableSums(Limits, LayerSums):
         edges = Faces(**self.at.edges._asdict(), dx=along.sx, dy=along.sy)
         self.at, self.edges = self.at._replace(points=self.points, edges=edges), edges
         self.images = self.at.images
-        self.exchange.term = Listing(method.transport)
         self.sending.follow(edges)
         k = 2*np.bincount(beyond.i, beyond.k, n) - method.edges.laplacian.diagonal()
         self.spread = k/self.at.V
@@ -55,12 +63,13 @@ class StableSums(Limits, LayerSums):
         self.threads(_sound, len(points), self.method.eos, points)
         self.threads(sweep, self.n, Slopes(), points, self.at.edges, self.slopes)
         self.threads(divided, self.n, self.slopes, V, points)
-        self.at.images.fill(points, ("rho_x", "P_x", "u_x", "v_y"), ("rho_y", "P_y", "u_y", "v_x"))
+        _mirrored(self.parent, points, self.n)
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
         self.look_at(state)
-        total = self.exchange.sum(self.at)
-        self.sending.add(self.points, self.slopes, total)
+        total = self.sending.sum(self.points, self.slopes)
+        for stage in self.exchange.stages:
+            stage.add(self.at, total)
         self.threads(driven, self.n, total, self.at.V, self.points, self.push, out)
 
     def longest(self) -> float:

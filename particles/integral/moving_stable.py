@@ -35,7 +35,7 @@ class StableRings(Limits, RingSums):
         super().__init__(method, threads)
         self.set_limits(method.flow)
         self.images, self.slowed, self.turned = NO_IMAGES, 0, -1
-        self.total, self.whole = np.zeros((self.n, 4)), np.zeros((self.n, 8))
+        self.whole = np.zeros((self.n, 8))
         self.points = np.zeros(self.n, Point)
         self.bench = self.bench._replace(points=self.points)
         self.fluid = self.fluid._replace(terms=Listing((*method.transport, *method.flow)))
@@ -157,9 +157,7 @@ class StableRings(Limits, RingSums):
     def euler(self, y: np.ndarray, h: float) -> bool:
         """One step of what is exchanged, places apart; False: not even Rusanov's flux leaves rho, e > 0."""
         bench, g = self.bench, self.method.g
-        self.threads(sweep, self.n, Listing(self.method.transport), self.points, self.edges, self.total)
-        self.sending.add(self.points, self.whole, self.total)
-        (m, px, py, E), once = self.total.T, bench.once.T
+        (m, px, py, E), once = self.sending.sum(self.points, self.whole).T, bench.once.T
         before = y[DENSITIES]/y[7]
         y[EXCHANGED] += h*np.stack([px + once[0], py + once[1] - g*y[6], m, bench.flow, E + once[2] - g*y[5]])
         self.lost = self.n if (y[7] > 0).all() else int(y[7].argmin())

@@ -10,12 +10,15 @@ import numpy as np
 
 from continuum.jit import formula, jit, jit_apart, jit_records
 from particles.integral.entropy_fluxes import Dissipation, Logarithmic, astir, jumps
-from particles.integral.exchange import Listing
+from particles.integral.exchange import Conduction, Friction, Listing
+from particles.integral.transposed_stress import Mending
 from particles.neighbours import u32, u64
-from particles.pairs import Face, Faces, rate
+from particles.pairs import Face, Faces, rate, sweep
 from particles.threads import Threads
 
 BLOCK = u64(64)
+#: terms of transport that give one end what they take from the other
+ALIKE = Friction, Conduction, Mending
 Sent = np.dtype([(name, "f8") for name in ("m", "px", "py", "e")])
 
 
@@ -118,14 +121,16 @@ def _receive(first, last, own, slopes, edges, once, sent, total):
 
 
 class Sending:
-    """Listed terms over edges, each edge once. slopes : of `positive.Slopes`."""
+    """Listed terms, each edge once; those of transport that are not `ALIKE` row by row."""
 
-    def __init__(self, flow: tuple, n: int, threads: Threads):
-        self.n, self.threads = n, threads
+    def __init__(self, flow: tuple, transport: tuple, n: int, threads: Threads):
+        self.n, self.threads, self.total = n, threads, np.zeros((n, 4))
         self.rough = tuple(term for term in flow if isinstance(term, Dissipation))
-        self.flow = tuple(term for term in flow if not isinstance(term, Dissipation))
+        carried = tuple(term for term in flow if not isinstance(term, Dissipation))
         # a pressure leaves out a row's own
-        self.own = float(any(not isinstance(term, Logarithmic) for term in self.flow))
+        self.own = float(any(not isinstance(term, Logarithmic) for term in carried))
+        self.terms = (*carried, *(term for term in transport if isinstance(term, ALIKE)))
+        self.others = tuple(term for term in transport if not isinstance(term, ALIKE))
         self.once, self.sent = empty_once(0), np.zeros(0, Sent)
 
     def follow(self, edges: Faces) -> None:
@@ -136,14 +141,18 @@ class Sending:
         self.edges, count = edges, fill_once(self.n, edges, self.once)
         self.blocks = -(-int(count)//int(BLOCK))
 
-    def add(self, points: np.ndarray, slopes: np.ndarray, total: np.ndarray) -> None:
-        """Add to what points gain (n, 4)."""
-        threads, once, sent = self.threads, self.once, self.sent
-        if self.flow:
-            threads(_send, self.blocks, Listing(self.flow), self.own, points, once, sent)
-        else:
-            sent.fill(0)
+    def sum(self, points: np.ndarray, slopes: np.ndarray) -> np.ndarray:
+        """What points gain (n, 4), which the next sum overwrites. slopes : of `positive.Slopes`."""
+        threads, once, sent, total = self.threads, self.once, self.sent, self.total
+        for array, terms in ((sent, self.terms), (total, self.others)):
+            if not terms:
+                array.fill(0)
+        if self.others:
+            threads(sweep, self.n, Listing(self.others), points, self.edges, total)
+        if self.terms:
+            threads(_send, self.blocks, Listing(self.terms), self.own, points, once, sent)
         for term in self.rough:
             threads(_look, self.blocks, points, once, self.stirred)
             threads(_stir, self.blocks, term, points, once, self.stirred, sent)
         threads(_receive, self.n, self.own, slopes, self.edges, once, sent, total)
+        return total

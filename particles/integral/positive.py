@@ -126,7 +126,7 @@ class Limits:
         self.refused, self.limited, self.lost = 0, 0, self.n
         self.excess, self.gain = Excess(Listing(flow)), np.zeros((self.n, 4))
         self.slopes, self.fastest = np.zeros((self.n, 8)), np.zeros((self.n, 1))
-        self.sending = Sending(flow, self.n, self.threads)
+        self.sending = Sending(flow, self.method.transport, self.n, self.threads)
 
     @property
     def speeds(self) -> np.ndarray:
