@@ -129,7 +129,7 @@ def _(term, a, b, ab):
     return 0.0, 0.0, 0.0, 0.0
 
 
-@jit
+@formula
 def waves(eos, a, b, ab, P, r, by_x, by_y):
     """What jumps in sound, along the normal, in entropy and in shear bring; differences as in `bend`."""
     size, cv, gamma = np.sqrt(ab.sx*ab.sx + ab.sy*ab.sy), eos.cv, 1 + 1/eos.cv

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from continuum.jit import formula, jit, jit_apart, jit_records
-from particles.integral.entropy_fluxes import Dissipation, Logarithmic, astir, jumps
+from particles.integral.entropy_fluxes import Dissipation, Logarithmic, astir, jumps, waves
 from particles.integral.exchange import Conduction, Friction, Listing
 from particles.integral.transposed_stress import Mending
 from particles.neighbours import u32, u64
@@ -17,6 +17,7 @@ from particles.pairs import Face, Faces, rate, sweep
 from particles.threads import Threads
 
 BLOCK = u64(64)
+FEW = 12        # of the edges of a block: what is dissipated by more is computed of all
 #: terms of transport that give one end what they take from the other
 ALIKE = Friction, Conduction, Mending
 Sent = np.dtype([(name, "f8") for name in ("m", "px", "py", "e")])
@@ -40,6 +41,14 @@ class Once(NamedTuple):
 @formula
 def edge_at(once, h):
     return Face(once.sx[h], once.sy[h], once.k[h], once.dx[h], once.dy[h])
+
+
+@formula
+def count(edges, stirred):
+    number = 0
+    for h in edges:
+        number += stirred[h]
+    return number
 
 
 def empty_once(entries: int) -> Once:
@@ -100,13 +109,35 @@ def _look(first, last, points, once, stirred):
 
 
 @jit
-def _stir(first, last, term, points, once, stirred, sent):
-    """Add what they dissipate."""
-    for h in range(u64(first)*BLOCK, u64(last)*BLOCK):
-        if stirred[h]:
-            q = sent[h]
-            m, px, py, e = rate(term, points[once.i[h]], points[once.near[h]], edge_at(once, h))
-            q.m, q.px, q.py, q.e = q.m + m, q.px + px, q.py + py, q.e + e
+def _stir_few(first, last, term, points, once, stirred, sent):
+    """Add what edges astir dissipate, one by one, in blocks with few of them."""
+    for block in range(u64(first), u64(last)):
+        edges = range(block*BLOCK, block*BLOCK + BLOCK)
+        if 0 < count(edges, stirred) <= FEW:
+            for h in edges:
+                if stirred[h]:
+                    q = sent[h]
+                    m, px, py, e = rate(term, points[once.i[h]], points[once.near[h]], edge_at(once, h))
+                    q.m, q.px, q.py, q.e = q.m + m, q.px + px, q.py + py, q.e + e
+
+
+@jit_apart
+def _stir_all(begin, end, term, points, once, stirred, sent):
+    for h in range(u64(begin), u64(end)):
+        a, b, ab, q = points[once.i[h]], points[once.near[h]], edge_at(once, h), sent[h]
+        m, px, py, e = waves(term.eos, a, b, ab, *jumps(a, b, ab))
+        if not stirred[h]:
+            m, px, py, e = 0.0, 0.0, 0.0, 0.0
+        q.m, q.px, q.py, q.e = q.m + m, q.px + px, q.py + py, q.e + e
+
+
+@jit
+def _stir_many(first, last, term, points, once, stirred, sent):
+    """The same in other blocks, of all edges."""
+    for block in range(u64(first), u64(last)):
+        begin = block*BLOCK
+        if count(range(begin, begin + BLOCK), stirred) > FEW:
+            _stir_all(begin, begin + BLOCK, term, points, once, stirred, sent)
 
 
 @jit_records
@@ -153,6 +184,7 @@ class Sending:
             threads(_send, self.blocks, Listing(self.terms), self.own, points, once, sent)
         for term in self.rough:
             threads(_look, self.blocks, points, once, self.stirred)
-            threads(_stir, self.blocks, term, points, once, self.stirred, sent)
+            for way in (_stir_few, _stir_many):
+                threads(way, self.blocks, term, points, once, self.stirred, sent)
         threads(_receive, self.n, self.own, slopes, self.edges, once, sent, total)
         return total
