@@ -126,9 +126,8 @@ def _stir_all(begin, end, term, points, once, stirred, sent):
     for h in range(u64(begin), u64(end)):
         a, b, ab, q = points[once.i[h]], points[once.near[h]], edge_at(once, h), sent[h]
         m, px, py, e = waves(term.eos, a, b, ab, *jumps(a, b, ab))
-        if not stirred[h]:
-            m, px, py, e = 0.0, 0.0, 0.0, 0.0
-        q.m, q.px, q.py, q.e = q.m + m, q.px + px, q.py + py, q.e + e
+        here = 1.0*stirred[h]       # a branch would end the vector instructions
+        q.m, q.px, q.py, q.e = q.m + here*m, q.px + here*px, q.py + here*py, q.e + here*e
 
 
 @jit
