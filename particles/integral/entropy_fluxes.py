@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from continuum.fluid import IdealGas
-from continuum.jit import formula, generic, jit
+from continuum.jit import formula, generic
 from particles.integral.exchange import pressure_of
 from particles.neighbours import u64
 from particles.pairs import pair_term
@@ -48,7 +48,7 @@ def over_mean(a, b):
 
     Without a branch: b is divided by the power of two that brings it nearest to a, from the bits of both.
     """
-    two = (np.float64(b).view(np.uint64) - np.float64(a).view(np.uint64) + HALF) >> MANTISSA
+    two = (np.float64(b).view(np.uint64) + HALF - np.float64(a).view(np.uint64)) >> MANTISSA
     k, near = np.float64(np.int64(two) - 1023), a*np.uint64(two << MANTISSA).view(np.float64)
     x, y = (b - a)/(b + a), (b - near)/(b + near)
     f = y*y

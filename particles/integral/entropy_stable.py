@@ -112,7 +112,8 @@ class Positive:
         if number:
             sums.rates(y, self._k)
         done: bool = sums.euler(y, PART*h, self._k)
-        y[:] = OLD[number]*self._start + (1 - OLD[number])*y
+        if OLD[number]:
+            y[:] = OLD[number]*self._start + (1 - OLD[number])*y
         return done
 
 

@@ -4,7 +4,7 @@ For terms without a branch, so that a loop over edges becomes vector instruction
 follows at the few edges that a first look finds astir. Blocks of edges are the same however many threads
 there are, and points add up what their edges bring in the order of their rows: so are results.
 """
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -25,7 +25,7 @@ Sent = np.dtype([(name, "f8") for name in ("m", "px", "py", "e")])
 
 class Once(NamedTuple):
     """Edges from points i to `near`, as `Faces` have them at their row of i; and of each entry of rows which
-    edge it is, and whether it is its beginning (1) or its end (-1). Behind the last edge come some of no area.
+    edge it is, and whether it is its beginning (1) or its end (-1). Behind the last edge some have no area.
     """
     i: np.ndarray
     near: np.ndarray
@@ -63,10 +63,9 @@ def fill_once(n, edges, once):
     count = u64(0)
     for i in range(u64(n)):
         for e in range(edges.first[i], edges.first[i] + edges.taken[i]):
-            j, back = edges.near[e], edges.first[i]
-            if j < i:
-                back = way_back(i, e, edges)
-            if j < i and back < edges.first[i]:
+            j = edges.near[e]
+            back = way_back(i, e, edges) if j < i else u64(e)
+            if back != e:
                 once.edge[e], once.sign[e] = once.edge[back], -1.0
                 continue
             once.i[count], once.near[count], once.edge[e], once.sign[e] = i, j, count, 1.0
@@ -79,14 +78,15 @@ def fill_once(n, edges, once):
 
 @jit
 def way_back(i, e, edges):
-    """The entry of the same edge in its other end's row, which a narrow box may name more than once; e for
+    """The entry of the same edge in its other end's row, which in a narrow box has more of them to i; e for
     none."""
     j, sx, sy = edges.near[e], edges.sx[e], edges.sy[e]
-    found, least = e, 1e-6*(abs(sx) + abs(sy)) + 1e-300
+    found, least = u64(e), 1e-6*(abs(sx) + abs(sy)) + 1e-300
     for back in range(edges.first[j], edges.first[j] + edges.taken[j]):
-        off = abs(edges.sx[back] + sx) + abs(edges.sy[back] + sy)
-        if edges.near[back] == i and off < least:
-            found, least = back, off
+        if edges.near[back] == i:
+            off = abs(edges.sx[back] + sx) + abs(edges.sy[back] + sy)
+            if off < least:
+                found, least = back, off
     return found
 
 
@@ -147,7 +147,8 @@ def _receive(first, last, own, slopes, edges, once, sent, total):
         for k in range(edges.first[i], edges.first[i] + edges.taken[i]):
             q, sign = sent[once.edge[k]], once.sign[k]
             m, px, py, e = m + sign*q.m, px + sign*q.px, py + sign*q.py, e + sign*q.e
-        total[i, 0], total[i, 1], total[i, 2], total[i, 3] = m, px - own*slopes[i, 3], py - own*slopes[i, 7], e
+        total[i, 0], total[i, 3] = m, e
+        total[i, 1], total[i, 2] = px - own*slopes[i, 3], py - own*slopes[i, 7]
 
 
 class Sending:
