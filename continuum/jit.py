@@ -57,7 +57,7 @@ jit = numba.njit(cache=True, nogil=True, **OPTIONS)
 llvmlite.binding.set_option("fluidized-grid", "-slp-max-reg-size=256")
 if platform.machine() in ("x86_64", "AMD64"):
     # an instruction that gathers takes twice as long as the loads it stands for
-    features = numba.config.CPU_FEATURES or llvmlite.binding.get_host_cpu_features().flatten()
+    features = vars(numba.config)["CPU_FEATURES"] or llvmlite.binding.get_host_cpu_features().flatten()
     numba.config.CPU_FEATURES = features + ",+prefer-no-gather"  # type: ignore[attr-defined]
 
 

@@ -54,7 +54,8 @@ def count(edges, stirred):
 def empty_once(entries: int) -> Once:
     """Room for edges of rows that have so many entries."""
     size = -(-entries//int(BLOCK))*int(BLOCK)
-    return Once(*np.zeros((2, size), u32), *np.zeros((5, size)), np.zeros(entries, u32), np.zeros(entries))
+    (i, near), (sx, sy, k, dx, dy) = np.zeros((2, size), u32), np.zeros((5, size))
+    return Once(i, near, sx, sy, k, dx, dy, np.zeros(entries, u32), np.zeros(entries))
 
 
 @jit
