@@ -53,6 +53,9 @@ class StableSums(Limits, LayerSums):
         self.at, self.edges = self.at._replace(points=self.points, edges=edges), edges
         self.images = self.at.images
         self.sending.follow(edges)
+        # `_sound` sets own pressures
+        self.open_area, *needed = self.exchange.stages
+        self.exchange.stages = tuple(needed)
         k = 2*np.bincount(beyond.i, beyond.k, n) - method.edges.laplacian.diagonal()
         self.spread = k/self.at.V
 
@@ -68,7 +71,7 @@ class StableSums(Limits, LayerSums):
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
         self.look_at(state)
         total = self.sending.sum(self.points, self.slopes)
-        for stage in self.exchange.stages:
+        for stage in (self.open_area, *self.exchange.stages):
             stage.add(self.at, total)
         self.threads(driven, self.n, total, self.at.V, self.points, self.push, out)
 

@@ -92,20 +92,14 @@ def way_back(i, e, edges):
 
 
 @jit_apart
-def _send(first, last, flow, own, points, once, sent):
-    """What terms bring along edges, less the pressure of one end and of the other in equal parts."""
+def _send(first, last, terms, own, points, once, stirred, sent):
+    """What terms bring along edges, less the pressure of one end and of the other in equal parts; which edges
+    are astir."""
     for h in range(u64(first)*BLOCK, u64(last)*BLOCK):
         a, b, ab, q = points[once.i[h]], points[once.near[h]], edge_at(once, h), sent[h]
-        m, px, py, e = rate(flow, a, b, ab)
+        m, px, py, e = rate(terms, a, b, ab)
         less = own*(b.P + b.hydro - a.P)
         q.m, q.px, q.py, q.e = m, px + less*ab.sx, py + less*ab.sy, e
-
-
-@jit_apart
-def _look(first, last, points, once, stirred):
-    """Look for edges astir."""
-    for h in range(u64(first)*BLOCK, u64(last)*BLOCK):
-        a, b, ab = points[once.i[h]], points[once.near[h]], edge_at(once, h)
         stirred[h] = astir(a, b, ab, *jumps(a, b, ab))
 
 
@@ -161,7 +155,8 @@ class Sending:
         carried = tuple(term for term in flow if not isinstance(term, Dissipation))
         # a pressure leaves out a row's own
         self.own = float(any(not isinstance(term, Logarithmic) for term in carried))
-        self.terms = (*carried, *(term for term in transport if isinstance(term, ALIKE)))
+        alike = tuple(term for term in transport if isinstance(term, ALIKE))
+        self.terms = Listing((*carried, *alike) or (Friction(0.0),))
         self.others = tuple(term for term in transport if not isinstance(term, ALIKE))
         self.once, self.sent = empty_once(0), np.zeros(0, Sent)
 
@@ -176,16 +171,12 @@ class Sending:
     def sum(self, points: np.ndarray, slopes: np.ndarray) -> np.ndarray:
         """What points gain (n, 4), which the next sum overwrites. slopes : of `positive.Slopes`."""
         threads, once, sent, total = self.threads, self.once, self.sent, self.total
-        for array, terms in ((sent, self.terms), (total, self.others)):
-            if not terms:
-                array.fill(0)
         if self.others:
             threads(sweep, self.n, Listing(self.others), points, self.edges, total)
-        if self.terms:
-            threads(_send, self.blocks, Listing(self.terms), self.own, points, once, sent)
-        for term in self.rough:
-            threads(_look, self.blocks, points, once, self.stirred)
-            for way in (_stir_few, _stir_many):
-                threads(way, self.blocks, term, points, once, self.stirred, sent)
+        else:
+            total.fill(0)
+        threads(_send, self.blocks, self.terms, self.own, points, once, self.stirred, sent)
+        for way in (_stir_few, _stir_many) if self.rough else ():
+            threads(way, self.blocks, self.rough[0], points, once, self.stirred, sent)
         threads(_receive, self.n, self.own, slopes, self.edges, once, sent, total)
         return total
