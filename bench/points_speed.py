@@ -137,7 +137,7 @@ def main() -> None:
              "moving points, a step, open faces": closed("moving-open-faces"),
              "moving delaunay, a step": step(*ready(SCENE, "moving-delaunay")[:2], ahead=0),
              "moving delaunay, entropy-stable, a step": step(*ready(SCENE, MOVING)[:2], ahead=0),
-             "moving delaunay, entropy-stable, Sod's tube, a step": step(*ready(TUBE, MOVING)[:2]),
+             "moving delaunay, entropy-stable, Sod's tube, a step": step(*ready(TUBE, MOVING)[:2], ahead=0),
              **parts_of_a_step(),
              "moving, plain bracket": bracket("moving-literal-printed-heat"),
              "moving, plain bracket, mended": bracket("moving-literal"),
