@@ -8,9 +8,10 @@ import numpy as np
 from continuum.fluid import sound_speed
 from continuum.jit import check_formulas, jit
 from particles.integral.entropy_fluxes import Dissipation, Logarithmic, log_means
-from particles.integral.exchange import Pressure, pressure_of
-from particles.integral.fixed import Point, driven, stored
+from particles.integral.exchange import At, Exchange, Pressure, Stage, pressure_of
+from particles.integral.fixed import Point, stored
 from particles.integral.layer import Layer, LayerSums
+from particles.integral.once import Sending
 from particles.integral.positive import COURANT, LEAST, MORE, OLD, PART, Limits, Slopes, divided
 from particles.limits import limit_of
 from particles.pairs import Faces, sweep
@@ -37,6 +38,19 @@ def _mirrored(parent, points, n):
         b.rho_y, b.P_y, b.u_y, b.v_x = -a.rho_y, -a.P_y, -a.u_y, -a.v_x
 
 
+class Sent(Exchange):
+    """Listed terms, each edge once, and their stages."""
+
+    def __init__(self, stages: tuple[Stage, ...], sending: Sending, slopes: np.ndarray):
+        self.stages, self.sending, self.slopes, self.total = stages, sending, slopes, sending.total
+
+    def sum(self, at: At) -> np.ndarray:
+        total = self.sending.sum(at.points, self.slopes)
+        for stage in self.stages:
+            stage.add(at, total)
+        return total
+
+
 class StableSums(Limits, LayerSums):
     """The compiled sums."""
     method: "StableLayer"
@@ -53,9 +67,7 @@ class StableSums(Limits, LayerSums):
         self.at, self.edges = self.at._replace(points=self.points, edges=edges), edges
         self.images = self.at.images
         self.sending.follow(edges)
-        # `_sound` sets own pressures
-        self.open_area, *needed = self.exchange.stages
-        self.exchange.stages = tuple(needed)
+        self.exchange = Sent(self.exchange.stages, self.sending, self.slopes)
         k = 2*np.bincount(beyond.i, beyond.k, n) - method.edges.laplacian.diagonal()
         self.spread = k/self.at.V
 
@@ -67,13 +79,6 @@ class StableSums(Limits, LayerSums):
         self.threads(sweep, self.n, Slopes(), points, self.at.edges, self.slopes)
         self.threads(divided, self.n, self.slopes, V, points)
         _mirrored(self.parent, points, self.n)
-
-    def rates(self, state: np.ndarray, out: np.ndarray) -> None:
-        self.look_at(state)
-        total = self.sending.sum(self.points, self.slopes)
-        for stage in (self.open_area, *self.exchange.stages):
-            stage.add(self.at, total)
-        self.threads(driven, self.n, total, self.at.V, self.points, self.push, out)
 
     def longest(self) -> float:
         """The step that is known to keep a state positive that was looked at."""
