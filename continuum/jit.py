@@ -5,6 +5,7 @@ the compiled function, and goes on with what it had compiled of the others.
 """
 import hashlib
 import os
+import platform
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -54,6 +55,10 @@ OPTIONS: dict[str, Any] = {"error_model": "numpy", "fastmath": FASTMATH}
 jit = numba.njit(cache=True, nogil=True, **OPTIONS)
 #: four float64 a vector: with eight, `jit_records` spends more on putting them together than it saves
 llvmlite.binding.set_option("fluidized-grid", "-slp-max-reg-size=256")
+if platform.machine() in ("x86_64", "AMD64"):
+    # an instruction that gathers takes twice as long as the loads it stands for
+    features = vars(numba.config)["CPU_FEATURES"] or llvmlite.binding.get_host_cpu_features().flatten()
+    numba.config.CPU_FEATURES = features + ",+prefer-no-gather"  # type: ignore[attr-defined]
 
 
 def jit_records(function: Callable) -> Any:
@@ -77,6 +82,20 @@ def jit_records(function: Callable) -> Any:
             config.SLP_VECTORIZE, config.LOOP_VECTORIZE = before
 
     compiled.compile = compile_with_slp
+    return compiled
+
+
+def jit_apart(function: Callable) -> Any:
+    """Compile for arrays none of which overlaps another, so that loops that read here and there in one and
+    write to another become vector instructions; branches and calls in them must be such that both sides can
+    be computed."""
+    compiled: Any = numba.njit(cache=True, nogil=True, forceinline=True, **OPTIONS)(function)
+
+    def customize(flags):
+        flags.noalias = True
+        return flags
+
+    compiled._compiler._customize_flags = customize
     return compiled
 
 

@@ -11,14 +11,16 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from continuum.fluid import IdealGas
-from continuum.jit import formula, generic, jit
+from continuum.jit import formula, generic
 from particles.integral.exchange import pressure_of
+from particles.neighbours import u64
 from particles.pairs import pair_term
 
 STEEP, STEEPEST = 6, 20.0       # power of the sensor; what weighs a bend of the pressure, over its mean
 SLOW = 0.1                      # of |v|, in the speed of shear and entropy waves that stand still on an edge
 CALM, ROUNDING = 1e-3, 1e-12    # parts of a full jump, and of a field, below which nothing is dissipated
 STILL = CALM**(1/STEEP)
+LN2, MANTISSA, HALF = np.log(2), u64(52), u64((2*1023 + 1) << 51)      # of a number's bits; 1/2 more than 2^0
 
 
 class Logarithmic(NamedTuple):
@@ -53,12 +55,17 @@ class Dissipation(NamedTuple):
 
 @formula
 def over_mean(a, b):
-    """ln(b/a)/2 over (b - a)/(b + a), by its series where both are near    [Ismail & Roe 2009]"""
-    x = (b - a)/(b + a)
-    f = x*x
-    if f > 0.01:
-        return np.log(b/a)/(2*x)
-    return 1 + f*(1/3 + f*(1/5 + f*(1/7 + f*(1/9 + f*(1/11 + f*(1/13 + f/15))))))
+    """ln(b/a)/2 over (b - a)/(b + a), by its series where both are near    [Ismail & Roe 2009]
+
+    Without a branch: b is divided by the power of two that brings it nearest to a, from the bits of both.
+    """
+    two = (np.float64(b).view(np.uint64) + HALF - np.float64(a).view(np.uint64)) >> MANTISSA
+    k, near = np.float64(np.int64(two) - 1023), a*np.uint64(two << MANTISSA).view(np.float64)
+    x, y = (b - a)/(b + a), (b - near)/(b + near)
+    f = y*y
+    s = 1 + f*(1/3 + f*(1/5 + f*(1/7 + f*(1/9 + f*(1/11 + f*(1/13 + f*(1/15 + f*(1/17 + f*(1/19 + f*(
+        1/21 + f/23))))))))))
+    return s if k == 0 else (0.5*LN2*k + y*s)/x
 
 
 @generic
@@ -122,25 +129,39 @@ def unturned(a, b, ab):
     return shrinks/(shrinks + along*((a.v_x - a.u_y)**2 + (b.v_x - b.u_y)**2))
 
 
+@formula
+def jumps(a, b, ab):
+    """Differences along an edge of P, rho, v_x and v_y, as in `bend`."""
+    x, y, mean = 2*ab.dx, 2*ab.dy, 0.5*(a.rho + b.rho)
+    # to an image: pressure less the weight above, so that what leaves there comes back by its parent
+    weight = mean*b.g
+    P = (b.P - a.P + mean*b.hydro/b.rho + weight*ab.dy, x*a.P_x + y*(a.P_y + weight),
+         x*b.P_x + y*(b.P_y - weight))
+    return (P, (b.rho - a.rho, x*a.rho_x + y*a.rho_y, x*b.rho_x + y*b.rho_y),
+            (b.vx - a.vx, x*a.u_x + y*a.u_y, x*b.u_x + y*b.u_y),
+            (b.vy - a.vy, x*a.v_x + y*a.v_y, x*b.v_x + y*b.v_y))
+
+
+@formula
+def astir(a, b, ab, P, r, by_x, by_y):
+    """Does an edge dissipate? All of it is computed, for vector instructions, which no branch may end."""
+    sx, sy, (dP, P0, P1), (drho, r0, r1), (du, u0, u1), (dv, v0, v1) = ab.sx, ab.sy, P, r, by_x, by_y
+    c2, both, speed = a.c*b.c, a.P + b.P, (abs(sx) + abs(sy))*(a.c + b.c)
+    return not ((STEEPEST*abs(P0 + P1 - 4*dP) <= CALM*both) & calm(dP, P0, P1, both)
+                & calm(c2*drho - dP, c2*r0 - P0, c2*r1 - P1, both)
+                & calm(sx*du + sy*dv, sx*u0 + sy*v0, sx*u1 + sy*v1, speed)
+                & calm(sx*dv - sy*du, sx*v0 - sy*u0, sx*v1 - sy*u1, speed))
+
+
 @pair_term(Dissipation, 4)
 def _(term, a, b, ab):
-    sx, sy, x, y, mean = ab.sx, ab.sy, 2*ab.dx, 2*ab.dy, 0.5*(a.rho + b.rho)
-    drho, du, dv, weight = b.rho - a.rho, b.vx - a.vx, b.vy - a.vy, mean*b.g
-    # to an image: pressure less the weight above, so that what leaves there comes back by its parent
-    dP = b.P - a.P + mean*b.hydro/b.rho + weight*ab.dy
-    r0, r1 = x*a.rho_x + y*a.rho_y, x*b.rho_x + y*b.rho_y
-    P0, P1 = x*a.P_x + y*(a.P_y + weight), x*b.P_x + y*(b.P_y - weight)
-    u0, u1, v0, v1 = x*a.u_x + y*a.u_y, x*b.u_x + y*b.u_y, x*a.v_x + y*a.v_y, x*b.v_x + y*b.v_y
-    c2, both, speed = a.c*b.c, a.P + b.P, (abs(sx) + abs(sy))*(a.c + b.c)
-    if (STEEPEST*abs(P0 + P1 - 4*dP) <= CALM*both and calm(dP, P0, P1, both)
-            and calm(c2*drho - dP, c2*r0 - P0, c2*r1 - P1, both)
-            and calm(sx*du + sy*dv, sx*u0 + sy*v0, sx*u1 + sy*v1, speed)
-            and calm(sx*dv - sy*du, sx*v0 - sy*u0, sx*v1 - sy*u1, speed)):
-        return 0.0, 0.0, 0.0, 0.0
-    return brought(term.eos, a, b, ab, (dP, P0, P1), (drho, r0, r1), (du, u0, u1), (dv, v0, v1))
+    P, r, by_x, by_y = jumps(a, b, ab)
+    if astir(a, b, ab, P, r, by_x, by_y):
+        return brought(term.eos, a, b, ab, P, r, by_x, by_y)
+    return 0.0, 0.0, 0.0, 0.0
 
 
-@jit
+@formula
 def waves(eos, a, b, ab, P, r, by_x, by_y):
     """What jumps in sound, along the normal, in entropy and in shear bring; differences as in `bend`."""
     size, cv, gamma = np.sqrt(ab.sx*ab.sx + ab.sy*ab.sy), eos.cv, 1 + 1/eos.cv

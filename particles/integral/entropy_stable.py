@@ -1,5 +1,5 @@
 """Layers whose flux survives shocks and vacua: listed `entropy_fluxes`, and steps that are `positive`."""
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from math import ceil, inf
 from typing import Any, ClassVar
 
@@ -10,9 +10,10 @@ from continuum.fluid import IdealGas, energy, sound_speed
 from continuum.jit import check_formulas, jit
 from particles.integral.edges import NONE_BEYOND, NOWHERE
 from particles.integral.entropy_fluxes import BlendedPressure, Dissipation, Logarithmic, log_means
-from particles.integral.exchange import Listing, Pressure, pressure_of
+from particles.integral.exchange import At, Exchange, Pressure, Stage, pressure_of
 from particles.integral.fixed import FixedSums, Point, stored
 from particles.integral.layer import Layer, LayerSums
+from particles.integral.once import Sending
 from particles.integral.positive import COURANT, LEAST, MORE, OLD, PART, Limits, Slopes, divided
 from particles.integral.stream import Stream, Streaming, keep
 from particles.limits import limit_of
@@ -31,6 +32,28 @@ def _sound(first, last, eos, points):
         a.c = sound_speed(eos, a.rho, energy(eos, a.rho, a.T))
 
 
+@jit
+def _mirrored(origin, points, n):
+    """Gradients of images."""
+    for m in range(len(origin)):
+        a, b = points[origin[m]], points[n + m]
+        b.rho_x, b.P_x, b.u_x, b.v_y = a.rho_x, a.P_x, a.u_x, a.v_y
+        b.rho_y, b.P_y, b.u_y, b.v_x = -a.rho_y, -a.P_y, -a.u_y, -a.v_x
+
+
+class Sent(Exchange):
+    """Listed terms, each edge once, and their stages."""
+
+    def __init__(self, stages: tuple[Stage, ...], sending: Sending, slopes: np.ndarray):
+        self.stages, self.sending, self.slopes, self.total = stages, sending, slopes, sending.total
+
+    def sum(self, at: At) -> np.ndarray:
+        total = self.sending.sum(at.points, self.slopes)
+        for stage in self.stages:
+            stage.add(at, total)
+        return total
+
+
 class Stable(Limits, FixedSums):
     """What compiled sums over stored edges share, before those of a kind of scene."""
 
@@ -46,7 +69,8 @@ class Stable(Limits, FixedSums):
         edges = Faces(**self.at.edges._asdict(), dx=along.sx, dy=along.sy)
         self.at, self.edges = self.at._replace(points=self.points, edges=edges), edges
         self.images = self.at.images
-        self.exchange.term = Listing((*method.transport, *method.flow))
+        self.sending.follow(edges)
+        self.exchange = Sent(self.exchange.stages, self.sending, self.slopes)
         k = 2*np.bincount(beyond.i, beyond.k, n) - method.edges.laplacian.diagonal()
         self.spread = k/self.at.V
 
@@ -57,12 +81,11 @@ class Stable(Limits, FixedSums):
         self.threads(_sound, len(points), self.method.eos, points)
         self.threads(sweep, self.n, Slopes(), points, self.at.edges, self.slopes)
         self.threads(divided, self.n, self.slopes, V, points)
-        self.at.images.fill(points, ("rho_x", "P_x", "u_x", "v_y"), ("rho_y", "P_y", "u_y", "v_x"))
+        _mirrored(self.images.origin, points, self.n)
 
     def longest(self) -> float:
         """The step that is known to keep a state positive that was looked at."""
-        sound = self.slopes[:, 8]
-        return float(1/PART/np.max(sound/self.at.V/COURANT + self.spread*self.chi))
+        return float(1/PART/np.max(self.speeds/self.at.V/COURANT + self.spread*self.chi))
 
     def euler(self, state: np.ndarray, dt: float, rates: np.ndarray) -> bool:
         """Go on by dt from a state with these rates; False: not even Rusanov's flux leaves rho, e > 0."""
@@ -122,7 +145,8 @@ class Positive:
         if number:
             sums.rates(y, self._k)
         done: bool = sums.euler(y, PART*h, self._k)
-        y[:] = OLD[number]*self._start + (1 - OLD[number])*y
+        if OLD[number]:
+            y[:] = OLD[number]*self._start + (1 - OLD[number])*y
         return done
 
 
@@ -145,6 +169,15 @@ class StableLayer(Layer):
 
     def __post_init__(self):
         flow_of(self, Pressure)
+        for name in ("edges", "beyond"):        # as at the end of a weight's range
+            object.__setattr__(self, name, of_some_area(getattr(self, name)))
+
+
+def of_some_area(edges: Any) -> Any:
+    """Edges that anything passes."""
+    some = (edges.k != 0) | edges.S.any(axis=1)
+    return replace(edges, **{field.name: getattr(edges, field.name)[some] for field in fields(edges)
+                             if field.name != "V"})
 
 
 @dataclass(frozen=True, kw_only=True)

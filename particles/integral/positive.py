@@ -13,6 +13,7 @@ from continuum.jit import formula, generic, jit
 from particles.integral.entropy_fluxes import Dissipation, against, fastest
 from particles.integral.exchange import Listing
 from particles.integral.fixed import first_invalid, inner
+from particles.integral.once import Sending
 from particles.lists import Ghosts
 from particles.pairs import Faces, pair_term, rate, sweep
 from particles.threads import Threads
@@ -23,7 +24,7 @@ LEAST = 1e-6                    # part of a step that halving goes down to
 #: they keep one by one they keep together    [Kraaijevanger 1991]
 PART, OLD = 0.5, (0.0, 0.0, 2/3, 0.0)
 
-SLOPES = ("rho_x", "rho_y", "P_x", "P_y", "u_x", "u_y", "v_x", "v_y")
+SLOPES = ("rho_x", "u_x", "v_x", "P_x", "rho_y", "u_y", "v_y", "P_y")
 #: density, momentum and energy by Rusanov's flux; a step per volume and edge
 LOW = ("low_rho", "low_px", "low_py", "low_eps", "room")
 #: what these terms read and others do not: slopes, the speed of sound, gravity of images
@@ -31,7 +32,11 @@ MORE = (*SLOPES, "c", "g", *LOW)
 
 
 class Slopes(NamedTuple):
-    """V grad of rho, P and v by differences; |S|/2 (|v.n| + c)."""
+    """V grad of rho, v and P by differences."""
+
+
+class Sound(NamedTuple):
+    """|S|/2 (|(v - {w}).n| + c)"""
 
 
 class Excess(NamedTuple):
@@ -44,10 +49,15 @@ class Limited(NamedTuple):
     excess: Excess
 
 
-@pair_term(Slopes, 9)
+@pair_term(Slopes, 8)
 def _(term, a, b, ab):
-    x, y, rho, P, u, v = ab.sx, ab.sy, b.rho - a.rho, b.P + b.hydro - a.P, b.vx - a.vx, b.vy - a.vy
-    return x*rho, y*rho, x*P, y*P, x*u, y*u, x*v, y*v, fastest(a, b, ab)
+    x, y, rho, u, v, P = ab.sx, ab.sy, b.rho - a.rho, b.vx - a.vx, b.vy - a.vy, b.P + b.hydro - a.P
+    return x*rho, x*u, x*v, x*P, y*rho, y*u, y*v, y*P
+
+
+@pair_term(Sound, 1)
+def _(term, a, b, ab):
+    return (fastest(a, b, ab),)
 
 
 @pair_term(Excess, 4)
@@ -117,7 +127,14 @@ class Limits:
         self.refused, self.limited, self.lost = 0, 0, self.n
         self.excess, self.gain = Excess(Listing(flow)), np.zeros((self.n, 4))
         self.leaves_out = limited(self.method.eos, self.excess)
-        self.slopes = np.zeros((self.n, 9))
+        self.slopes, self.fastest = np.zeros((self.n, 8)), np.zeros((self.n, 1))
+        self.sending = Sending(flow, self.method.transport, self.n, self.threads)
+
+    @property
+    def speeds(self) -> np.ndarray:
+        """Of points looked at, over all of their edges."""
+        self.threads(sweep, self.n, Sound(), self.points, self.edges, self.fastest)
+        return self.fastest[:, 0]
 
     @property
     def chi(self) -> np.ndarray:
@@ -155,8 +172,8 @@ def divided(first, last, slopes, V, points):
     """Slopes from what differences sum up to."""
     for i in range(first, last):
         a, q, f = points[i], slopes[i], 1/V[i]
-        a.rho_x, a.rho_y, a.P_x, a.P_y = f*q[0], f*q[1], f*q[2], f*q[3]
-        a.u_x, a.u_y, a.v_x, a.v_y = f*q[4], f*q[5], f*q[6], f*q[7]
+        a.rho_x, a.u_x, a.v_x, a.P_x = f*q[0], f*q[1], f*q[2], f*q[3]
+        a.rho_y, a.u_y, a.v_y, a.P_y = f*q[4], f*q[5], f*q[6], f*q[7]
 
 
 @jit

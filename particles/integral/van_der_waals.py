@@ -18,6 +18,7 @@ from particles.integral.entropy_fluxes import (
     fastest,
     log_means,
     over_mean,
+    unturned,
 )
 from particles.integral.positive import KEPT, Excess, above_cold, crowded, limited, share
 from particles.pairs import pair_term, rate
@@ -68,7 +69,7 @@ def _(eos, a, b, ab, P, r, by_x, by_y):
     of_n, n_line = bend(dun, u0*nx + v0*ny, u1*nx + v1*ny, dun)
     of_t, _ = bend(dut, v0*nx - u0*ny, v1*nx - u1*ny, dut)
     of_s, s_line = bend(drho - dP/c2, r0 - P0/c2, r1 - P1/c2, drho - (b.P - a.P)/c2)
-    sigma = min(1.0, STEEPEST*abs(P0 + P1 - 4*dP)/(2*both))
+    sigma = min(1.0, STEEPEST*unturned(a, b, ab)*abs(P0 + P1 - 4*dP)/(2*both))
     rx, ry = 0.5*(a.rx + b.rx), 0.5*(a.ry + b.ry)
     flow, fast = np.sqrt(rx*rx + ry*ry), fastest(a, b, ab)
     slow = size*np.sqrt((rx*nx + ry*ny)**2 + (SLOW*flow)**2)
