@@ -10,7 +10,7 @@ from particles.fields import Fields
 from particles.integral.bodies import with_disc
 from particles.integral.points import lattice
 from studies.build.answers import with_rows
-from studies.hardcases import high_ra
+from studies.hardcases import high_ra, printed
 from studies.hardcases.cases import IN_LAYERS, IN_TUBES, RANDOM
 from studies.hardcases.columns import COLUMNS
 from studies.hardcases.derive import derive
@@ -198,6 +198,7 @@ def test_what_a_case_asks_of_its_exact_answer_is_what_it_should_be(case):
     if case == "shocked ripple":
         size = scene.theory.amplitude + scene.theory.growth*(scene.time - scene.theory.meets)
         height = 80.0 + size*np.cos(2*np.pi/scene.width*first.x[:, 0])
+        assert 1 + 1/scene.eos.cv == printed.GAMMA      # of theory
         T = HOT + 0.2*np.clip(height - np.abs(first.x[:, 1]), -1, 1)
         at = on_lattice(scene, 1 + 0*T, 0*first.x, T)
     if case != "Sedov":
