@@ -4,7 +4,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from continuum.fluid import ConstEta
+from continuum.fluid import ConstEta, IdealGas
 from particles.fields import Fields
 from studies.build.scenes import Scene, Start
 from studies.build.stable import BODIES
@@ -78,7 +78,7 @@ class Bow(Frictionless):
 class Ripple(Frictionless):
     """The rippled interface of KHP95's Fig. 11 and its mirror image, L rows in all: gases fall onto y = 0, a
     shock of Mach 1.5 comes back; cells that the interface cuts have their share of both."""
-    eos: Any = EOS
+    eos: Any = IdealGas()  # noqa: RUF009 (immutable)
 
     @property
     def width(self) -> int:  # type: ignore[override]
@@ -100,7 +100,7 @@ class Ripple(Frictionless):
     @property
     def fastest(self) -> float:
         """|v| + c of the light gas that falls, and more than that of all that is shocked."""
-        return float(self.theory.fall + (GAMMA*LIGHT.P/LIGHT.rho)**0.5)
+        return float(self.theory.fall + (2*LIGHT.P/LIGHT.rho)**0.5)
 
     def fields(self, x: np.ndarray) -> Start:
         k = 2*np.pi/self.width
