@@ -57,7 +57,12 @@ def solve(scene: Any, method: Any, *, rows: int | None = None, seed: int = 1, ti
     if isinstance(method, str) and method in REFERENCES:
         parts = solved(method, where)
     else:
-        made = prepared(where, chosen, seed)
+        try:
+            made = prepared(where, chosen, seed)
+        except ValueError as error:     # points on sides take one that slides, but not into corners
+            corners = " = Sliding(" in str(error) and where.sides.axes == (False, False)
+            why = ", as it slides into corners: take"
+            raise ValueError(str(error).replace(": take", why, corners)) from None
         plan = planned(where, chosen, dt or made.dt, time, resume)
         warn_of_heat(where, plan.dt*plan.steps)
         parts = followed(where, made, plan, called(method), progress)
@@ -129,11 +134,7 @@ def prepared(scene: Any, chosen: Any, seed: int = 1) -> Ready:
         begun["x"], begun["fields"] = of_one_mass(scene, seed)
     elif isinstance(scene, Sound) and isinstance(chosen, (FacesMotion, DriftMotion)):
         begun["x"] = lattice((scene.width, scene.L)).x
-    try:
-        made = ready(scene, chosen, seed, **begun)
-    except ValueError as error:     # points on sides take one that slides, but not into corners
-        corners = getattr(scene.sides, "axes", ()) == (False, False) and " = Sliding(" in str(error)
-        raise ValueError(str(error).replace(": take", ", as it slides into corners: take", corners)) from None
+    made = ready(scene, chosen, seed, **begun)
     return made._replace(start=made.start.reshape(len(made.start), -1))
 
 

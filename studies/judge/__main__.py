@@ -32,13 +32,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     name = words.method.rpartition(":")[2]
     try:
         takes = climb(method, sorted(words.rows), words.minutes)
+        told = verdicts(takes)
+        print(*(f"{rung.name}: {verdict.words}" for rung, verdict in told), sep="\n")
+        print(write_page(name, takes, words.out))
     except KeyboardInterrupt:
         return say("stopped: there is no page", 130)
-    told = verdicts(takes)
-    for rung, verdict in told:
-        print(f"{rung.name}: {verdict.words}")
-    try:
-        print(write_page(name, takes, words.out))
     except OSError as error:
         return say(str(error), 1)
     return 0 if any(verdict.good for _, verdict in told) else 1
