@@ -5,7 +5,6 @@ the compiled function, and goes on with what it had compiled of the others.
 """
 import hashlib
 import os
-import platform
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -55,10 +54,6 @@ OPTIONS: dict[str, Any] = {"error_model": "numpy", "fastmath": FASTMATH}
 jit = numba.njit(cache=True, nogil=True, **OPTIONS)
 #: four float64 a vector: with eight, `jit_records` spends more on putting them together than it saves
 llvmlite.binding.set_option("fluidized-grid", "-slp-max-reg-size=256")
-if platform.machine() in ("x86_64", "AMD64"):
-    # an instruction that gathers takes twice as long as the loads it stands for
-    features = vars(numba.config)["CPU_FEATURES"] or llvmlite.binding.get_host_cpu_features().flatten()
-    numba.config.CPU_FEATURES = features + ",+prefer-no-gather"  # type: ignore[attr-defined]
 
 
 def jit_records(function: Callable) -> Any:
