@@ -6,7 +6,13 @@ ARGS   ?=
 # of a Dask cluster on which the cases of studies run: tcp://host:port
 SCHEDULER ?=
 
-# what is wrong is said before anything is set up
+# what is wrong is said before anything is set up; what is typed has spaces behind backslashes
+variables := SIZE ARGS SCHEDULER SCENE METHOD ROWS NUMBERS TEXT PYTHON
+near = $(shell $(PYTHON) -c 'import difflib, sys; print(*difflib.get_close_matches(sys.argv[1].upper(), sys.argv[2:], 1))' $1 $(variables))
+all = there are $(variables); numbers of a scene go into NUMBERS="ra=5000 pr=0.7"
+$(foreach one,$(subst :,=,$(subst +,=,$(subst \$() ,_,$(MAKEOVERRIDES)))),$(foreach name,$(firstword $(subst =, ,$(one))),\
+	$(if $(filter $(variables) %_NUM_THREADS,$(name)),,\
+	$(error no variable is called $(name); $(or $(addprefix near to it is ,$(call near,$(name))),$(all))))))
 $(if $(filter quick paper fine,$(SIZE)),,$(error unknown size '$(SIZE)': choose one of quick, paper, fine, as in SIZE=quick))
 $(if $(SCHEDULER),$(if $(and $(filter tcp://% tls://% ws://% wss://%,$(SCHEDULER)),$(word 3,$(subst :, ,$(SCHEDULER)))),,\
 	$(error SCHEDULER=$(SCHEDULER) is no address of a Dask scheduler: give tcp://host:port)))
@@ -58,15 +64,16 @@ env: .venv/ready  ## set up .venv and nothing else
 # every table and figure of the size; then what is made from tables: of size quick the page alone, in results/quick
 studies: $(studies:%=study-%) $(if $(filter quick,$(SIZE)),,films executed) report  ## all studies, notebooks, films, the page: hours
 
-# of one solution: names of studies/build/words.py, several methods or rows in quotes
-SCENE  ?= rayleigh-benard
-METHOD ?= fixed-lattice
-ROWS   ?= 16
-solve: .venv/ready  ## K, Nu and a picture: make solve SCENE=taylor-green METHOD="grid spam" ROWS="16 32"
-	$(run) -m studies.front $(SCENE) $(METHOD) --rows $(ROWS) $(ARGS)
+# of one solution: names of studies/build/words.py; several methods, rows, numbers of the scene in quotes
+SCENE   ?= rayleigh-benard
+METHOD  ?= fixed-lattice
+ROWS    ?= 16
+NUMBERS ?=
+solve: .venv/ready  ## K, Nu and a picture: make solve SCENE=cavity METHOD="grid spam" ROWS="16 32" NUMBERS="ra=5000 pr=0.7"
+	$(run) -m studies.front $(SCENE) $(METHOD) --rows $(ROWS) $(if $(NUMBERS),--numbers $(NUMBERS)) $(ARGS)
 
 # a class of one's own, module:Class, or a name as above; ARGS="--rows 8 12" is a ladder of half a minute
-judge: .venv/ready  ## a page on how good a method of your own is: make judge METHOD=examples.your_method:Cells
+judge: .venv/ready  ## a page on how good a method of your own is, and an error if no rung is passed: make judge METHOD=examples.your_method:Cells
 	$(run) -m studies.judge $(METHOD) $(ARGS)
 
 words: .venv/ready  ## every name of a method, scene, quantity, explained; TEXT=wendland shows some

@@ -80,6 +80,20 @@ def jit_records(function: Callable) -> Any:
     return compiled
 
 
+def jit_apart(function: Callable) -> Any:
+    """Compile for arrays none of which overlaps another, so that loops that read here and there in one and
+    write to another become vector instructions; branches and calls in them must be such that both sides can
+    be computed."""
+    compiled: Any = numba.njit(cache=True, nogil=True, forceinline=True, **OPTIONS)(function)
+
+    def customize(flags):
+        flags.noalias = True
+        return flags
+
+    compiled._compiler._customize_flags = customize
+    return compiled
+
+
 #: plain arithmetic that serves numbers, arrays and compiled code alike
 formula = register_jitable(**OPTIONS)
 

@@ -10,6 +10,7 @@ import numpy as np
 from plain_meshless import FACES, nearing
 
 from continuum.fluid import conductivity, energy, pressure, temperature, viscosity
+from particles.smooth.adiabatic import AdiabaticMfm
 from particles.smooth.corrected import AllCorrected, Corrected, Reversed, Symmetrised
 from particles.smooth.meshless import Crksph, Mfm
 from particles.smooth.riemann import LowDissipationSums
@@ -227,7 +228,8 @@ def direct(method: Spam, p: Points, grad_w, grad_v, grad_T):
 
 #: weights of B_i grad w and B_j grad w in A and C, and whether friction is corrected
 AREAS = {Corrected: (1, 0, False), Reversed: (0, 1, False), Symmetrised: (0.5, 0.5, False),
-         AllCorrected: (1, 0, True), Crksph: (1, 0, False), Mfm: (1, 0, False)}
+         AllCorrected: (1, 0, True), Crksph: (1, 0, False), Mfm: (1, 0, False),
+         AdiabaticMfm: (1, 0, False)}
 
 
 def inverse(method: Spam, p: Points, grad_w):

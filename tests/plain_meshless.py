@@ -3,6 +3,7 @@ S/2m^2 of pairs, (n, points, 2), the force of their pressure over m^2 and its wo
 import numpy as np
 
 from continuum.fluid import energy, sound_speed
+from particles.smooth.adiabatic import AdiabaticMfm
 from particles.smooth.meshless import Crksph, Mfm
 from particles.walls.mirror import Mirror
 
@@ -70,6 +71,12 @@ def mfm(method, p, w, grad_w):
     return S, 2*P[..., None]*S, 2*P*(np.einsum("ija,ia->ij", S, p.v[:n]) - size*star)
 
 
+def adiabatic(method, p, w, grad_w):
+    """Its force, whose work is shared in halves."""
+    S, force, _ = mfm(method, p, w, grad_w)
+    return S, force, (force*(p.v[:len(w), None] - p.v)).sum(axis=2)/2
+
+
 def limited(own, other, value):
     """Between the own value less half of the difference and the mean plus a quarter, or turned round."""
     mean, d = (own + other)/2, abs(own - other)
@@ -86,4 +93,4 @@ def nearing(method, p, dv, d):
     return np.minimum(3*np.maximum(u, 0)/c, 1)*rho*c*u
 
 
-FACES = {Crksph: crksph, Mfm: mfm}
+FACES = {Crksph: crksph, Mfm: mfm, AdiabaticMfm: adiabatic}

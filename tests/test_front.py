@@ -9,7 +9,7 @@ import pytest
 
 from continuum.domain import Domain
 from continuum.scene import RayleighBenard
-from continuum.sides import Periodic, Plate
+from continuum.sides import Periodic, Plate, Sliding, Slip
 from studies.build import SCENES, ready
 from studies.build.fixed import with_term
 from studies.build.spam import PRINTED
@@ -111,6 +111,9 @@ def test_files_hold_what_the_solution_has(convection, tmp_path):
     assert np.array_equal(mesh.point_data["velocity"][:, 1], convection.fields()["vy"])
     with pytest.raises(ValueError, match=r"run.txt ends in .txt: give a name that ends in .h5 or .vtu"):
         convection.save(tmp_path/"run.txt")
+    with pytest.raises(ValueError, match=r"a.pdf ends in .pdf: .* in .png, or .*savefig\('a.pdf'\)"):
+        convection.plot(tmp_path/"a.pdf")
+    assert not (tmp_path/"a.pdf").exists()
 
 
 def test_an_interrupted_run_goes_on_bitwise(tmp_path, monkeypatch):
@@ -140,6 +143,11 @@ def other_box():
     (lambda: solve(3, "grid"), "a scene is a name or an object such as Domain.*, got 3: make words lists"),
     (lambda: solve(RB, "grid", rows=0), "rows must be a whole number of 4 or more, got 0"),
     (lambda: solve(RB, "grid", rows="8"), "rows must be a whole number of 4 or more, got '8'"),
+    (lambda: solve(RB, "grid", seed=-1), "seed must be a whole number of 0 or more, got -1"),
+    (lambda: solve(Domain(L=12, eta=0.1, k=0.1, top=Sliding(0.1)), "moving-delaunay"),
+     r"cannot take top = Sliding\(v=0.1.*, as it slides into corners: take grid, spam$"),
+    (lambda: solve(Domain(L=12, eta=0.1, k=0.1, top=Slip()), "moving-delaunay"), r"= Slip\(.*\): take grid"),
+    (lambda: compare(RB, ["grid"], rows=8, ra=1e9, time=30).plot(), "every run diverged: there is nothing"),
     (lambda: solve(RB, "grid", time=-1), "time must be positive and finite, got -1"),
     (other_box, "points of the method reach 15 x 7, the scene is 16 x 12"),
     (lambda: solve("sound", "boussinesq"), "boussinesq solves Rayleigh-Benard convection, not Sound"),
@@ -202,3 +210,38 @@ def test_the_command_prints_and_draws_and_tells_errors_in_a_line(tmp_path, capsy
     assert "error = " in capsys.readouterr().out and (tmp_path/"sound-grid.png").exists()
     assert main(["sound", "nothing", "--out", str(tmp_path)]) == 1
     assert "no method is called 'nothing'" in capsys.readouterr().err
+
+
+def test_the_command_takes_numbers_of_the_scene_and_refuses_others(tmp_path, capsys):
+    out = ["--rows", "8", "--time", "1", "--out", str(tmp_path), "--numbers"]
+    assert main([RB, "linear-theory", *out, "ra=5000", "pr=0.7"]) == 0
+    growth = solve(RB, "linear-theory", rows=8, ra=5000, pr=0.7)["growth"]
+    assert f"growth = {growth}" in capsys.readouterr().out
+    assert main([RB, "grid", *out, "Ra=5000"]) == 1 and "near to it are ra" in capsys.readouterr().err
+    assert main([RB, "grid", *out, "transport=1"]) == 1 and "give ConstEta" in capsys.readouterr().err
+    for wrong in ("ra", "ra=much", "rows=9"):
+        with pytest.raises(SystemExit):
+            main([RB, "grid", *out, wrong])
+        assert f"'{wrong}' is no number of a scene: write them as ra=5000" in capsys.readouterr().err
+
+
+def test_the_command_tells_in_a_line_why_it_ended(tmp_path, capsys, monkeypatch):
+    def run(*words, out=tmp_path):
+        return main([RB, *words, "--rows", "8", "--out", str(out)]), capsys.readouterr().err
+
+    def stop(bar, steps):
+        raise KeyboardInterrupt
+    code, text = run("grid", "--numbers", "ra=1e9", "--time", "30")
+    assert code == 1 and "or take more rows" in text and text.count("\n") == 1
+    (tmp_path/"file").touch()
+    code, text = run("grid", "--time", "1", out=tmp_path/"file")
+    assert code == 1 and "rayleigh-benard-grid.png cannot be written (File exists) and is as it was" in text
+    with monkeypatch.context() as stopped:
+        stopped.setattr("studies.front.solving.tqdm.update", stop)
+        code, text = run("grid", "--time", "5")
+        kept, = tmp_path.glob("*.h5")
+        assert code == 130 and text == f"interrupted: the same command goes on from {kept}\n"
+        code, text = run("grid", "fixed-lattice", "--time", "5")
+        assert code == 130 and text == "interrupted: the same command starts anew, nothing is kept\n"
+    assert run("grid", "--time", "6")[0] == 0 and kept.exists()       # another run has a file of its own
+    assert run("grid", "--time", "5")[0] == 0 and not kept.exists()

@@ -7,13 +7,15 @@ from continuum.exact.blast import blast
 from continuum.exact.riemann import GasState, density, middle, shock_speed, solution
 from continuum.fluid import ConstEta
 from particles.fields import Fields
+from particles.integral.bodies import with_disc
 from particles.integral.points import lattice
 from studies.build.answers import with_rows
-from studies.hardcases import high_ra
+from studies.hardcases import high_ra, printed
 from studies.hardcases.cases import IN_LAYERS, IN_TUBES, RANDOM
 from studies.hardcases.columns import COLUMNS
 from studies.hardcases.derive import derive
 from studies.hardcases.high_ra import no_report
+from studies.hardcases.impacts import HOT, pitot
 from studies.hardcases.printed import divide, gases, impulse, ripple
 from studies.hardcases.robust import Strip
 from studies.hardcases.trials import prepared
@@ -188,6 +190,17 @@ def test_what_a_case_asks_of_its_exact_answer_is_what_it_should_be(case):
         r = np.hypot(*first.x.T)
         inside = r < scene.time/3
         at = on_lattice(scene, np.where(inside, 16.0, 1 + scene.time/r), -first.x/r[:, None], inside/3)
+    if case == "Mach 3 body":
+        x, edge = with_disc(first.x, scene.disc)
+        one = np.ones(len(x))
+        at = Fields(x, 0*x, one, np.where(np.isin(np.arange(len(x)), edge), pitot(3.0, GAMMA), one), one)
+        assert pitot(3.0, GAMMA) == pytest.approx(12.061, abs=1e-3)     # of tables
+    if case == "shocked ripple":
+        size = scene.theory.amplitude + scene.theory.growth*(scene.time - scene.theory.meets)
+        height = 80.0 + size*np.cos(2*np.pi/scene.width*first.x[:, 0])
+        assert 1 + 1/scene.eos.cv == printed.GAMMA      # of theory
+        T = HOT + 0.2*np.clip(height - np.abs(first.x[:, 1]), -1, 1)
+        at = on_lattice(scene, 1 + 0*T, 0*first.x, T)
     if case != "Sedov":
         value = scene.seen(first, at)
         assert column.right(value["measured"]) and abs(value.get("plateau", 0)) < 0.1

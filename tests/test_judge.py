@@ -71,6 +71,14 @@ def test_dice_are_found_out(verdicts):
     assert "does not keep" in told["conservation"]
 
 
+def test_what_passes_no_rung_has_a_page_and_ends_with_1_as_the_help_says(tmp_path, capsys):
+    assert main(["strangers:NoFields", "--rows", "8", "--out", str(tmp_path)]) == 1
+    assert (tmp_path/"judge-NoFields.html").exists()
+    with pytest.raises(SystemExit):
+        main(["--help"])
+    assert "1 if none is" in " ".join(capsys.readouterr().out.split())
+
+
 def test_a_ladder_that_is_stopped_says_so(tmp_path, capsys, monkeypatch):
     def stop(self, state, out):
         raise KeyboardInterrupt

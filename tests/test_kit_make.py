@@ -24,7 +24,7 @@ def make(tmp_path):
 
     def run(*words: str) -> tuple[int, str]:
         # below another make it would say which folder it enters
-        done = subprocess.run(["make", "--no-print-directory", *words, "PYTHON=false"], cwd=tmp_path,
+        done = subprocess.run(["make", "--no-print-directory", "PYTHON=false", *words], cwd=tmp_path,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         return done.returncode, done.stdout
     return run
@@ -91,10 +91,21 @@ def test_a_worker_is_told_that_it_needs_the_address_of_a_scheduler_before_anythi
 @pytest.mark.parametrize(("words", "told"), [
     (["worker", "SCHEDULER=foo"], "SCHEDULER=foo is no address of a Dask scheduler: give tcp://host:port"),
     (["study-one", "SCHEDULER=tcp://foo"], "SCHEDULER=tcp://foo is no address"),
-    (["report", "SIZE=foo"], "unknown size 'foo': choose one of quick, paper, fine")])
+    (["report", "SIZE=foo"], "unknown size 'foo': choose one of quick, paper, fine"),
+    (["solve", "METHODS=grid", f"PYTHON={sys.executable}"], "is called METHODS; near to it is METHOD."),
+    (["solve", "RA=5000"], 'called RA; there are SIZE ARGS SCHEDULER SCENE METHOD ROWS NUMBERS TEXT PYTHON; '
+                           'numbers of a scene go into NUMBERS="ra=5000 pr=0.7"')])
 def test_a_word_that_is_wrong_is_refused_in_one_line_before_anything_is_set_up(make, tmp_path, words, told):
     code, text = make(*words)
     assert code and told in text and len(text.splitlines()) == 1 and not (tmp_path/".venv").exists()
+
+
+def test_all_of_what_is_typed_reaches_a_solution(make, tmp_path):
+    set_up(tmp_path, "ready")
+    code, text = make("-n", "solve", "METHOD=grid spam", "NUMBERS:=ra=1 pr=2", "ARGS=--out a=b",
+                      "OMP_NUM_THREADS=1")
+    assert code == 0 and text.split("studies.front ")[1].split() == [
+        *"rayleigh-benard grid spam --rows 16 --numbers ra=1 pr=2 --out a=b".split()]
 
 
 def test_two_that_set_up_at_once_do_it_once_beside_the_environment_that_runs(make, tmp_path):

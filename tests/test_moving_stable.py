@@ -10,67 +10,18 @@ from continuum.fluid import ConstEta, DenseFluid, IdealGas
 from continuum.scene import RayleighBenard
 from continuum.sides import Periodic, Plate
 from particles.integral.carried import follow
-from particles.integral.entropy_fluxes import Dissipation, Logarithmic, MeanPressure
-from particles.integral.exchange import Listing, Pressure
+from particles.integral.entropy_fluxes import Logarithmic, MeanPressure
+from particles.integral.exchange import Pressure
 from particles.integral.moving_stable import StableDelaunay
-from particles.integral.positive import SLOPES, switched
-from particles.integral.stable_rings import Point
-from particles.pairs import Faces, sweep
+from particles.integral.positive import switched
+from particles.pairs import sweep
 from particles.run import Plan, run
 from particles.threads import Threads
 from studies.build import SCENES, ready, variant
 from studies.build.measure import heat_at_rest
 
 GAS, NAME, ONE = IdealGas(2.5), "moving-delaunay-entropy-stable", Threads(1)
-EX, EC, M = (Logarithmic(GAS), Pressure(GAS)), (Logarithmic(GAS), MeanPressure(GAS)), Dissipation(GAS)
-PAIRS = 500
-
-
-def two_by_two():
-    """Pairs of points in any two states that move in any way, on edges of their own: (points, edges)."""
-    draw, points = np.random.default_rng(1), np.zeros(2*PAIRS, Point)
-    points["rho"], points["T"] = np.exp(2*draw.normal(size=(2, 2*PAIRS)))
-    for name in ("vx", "vy", "rx", "ry", *SLOPES):
-        points[name] = 3*draw.normal(size=2*PAIRS)
-    points["P"] = points["rho"]*points["T"]
-    points["c"] = np.sqrt(1.4*points["T"])
-    turned = np.tile([1.0, -1.0], PAIRS)
-    sx, sy, dx, dy = np.repeat(draw.normal(size=(4, PAIRS)), 2, axis=1)*turned
-    n = np.arange(2*PAIRS)
-    return points, Faces(n.astype(np.uint64), np.ones(len(n), np.uint32), (n ^ 1).astype(np.uint32), sx, sy,
-                         0*sx, dx, dy)
-
-
-def of_pairs(points, *names):
-    """Of all first points and of all second ones, (fields, 2, PAIRS)."""
-    return np.array([points[name].reshape(-1, 2).T for name in names])
-
-
-def produced_by_pairs(*terms):
-    """(What pairs add to sum -V rho s, its size; S.D(rho v) - S.{w} D(rho), which closed edges sum away)."""
-    points, edges = two_by_two()
-    points["P"] *= isinstance(terms[0], Dissipation)    # others leave out a row's own, as closed edges may
-    gain = np.zeros((len(points), 4))
-    sweep(0, len(points), Listing(terms), points, edges, gain)
-    assert np.allclose(gain[::2], -gain[1::2], rtol=1e-11)
-    rho, T, vx, vy, rx, ry = of_pairs(points, "rho", "T", "vx", "vy", "rx", "ry")
-    v, S = np.array([vx, vy]), 2*np.array([edges.sx, edges.sy])[:, ::2]
-    parts = entropy_variables(rho, v, T)*gain.T.reshape(4, -1, 2).transpose(0, 2, 1)
-    w = (v + [rx, ry]).mean(axis=1)
-    closing = (S*(rho*v)[:, 1]).sum(axis=0) - (S*(rho*v)[:, 0]).sum(axis=0)
-    return (parts.sum(axis=(0, 1)), np.abs(parts).sum(axis=(0, 1)),
-            closing - (S*w).sum(axis=0)*(rho[1] - rho[0]))
-
-
-@pytest.mark.parametrize("flow", [EX, EC], ids=["crossed", "mean"])
-def test_two_points_that_move_keep_entropy_whatever_their_states(flow):
-    made, size, closing = produced_by_pairs(*flow)
-    assert np.abs((made - closing)/size).max() < 1e-13
-
-
-def test_no_edge_that_moves_destroys_entropy_by_its_dissipation():
-    made, size, _ = produced_by_pairs(M)
-    assert (made <= 1e-13*size).all() and np.median(made/size) < -1e-3
+EX, EC = (Logarithmic(GAS), Pressure(GAS)), (Logarithmic(GAS), MeanPressure(GAS))
 
 
 def at_random(method, size=1.0, seed=2):

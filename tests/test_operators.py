@@ -8,7 +8,7 @@ from scenes import rows_of
 from continuum.fluid import ConstEta, IdealGas
 from continuum.scene import RayleighBenard
 from particles.integral.dih import Dih, NestedFluxes
-from particles.integral.edge_makers import MAKERS, plain, printed, renormalised
+from particles.integral.edge_makers import MAKERS, delaunay, plain, printed, renormalised
 from particles.integral.edges import Edges
 from particles.integral.interpolants import Exponential, Gaussian, W
 from particles.integral.points import jittered, lattice, pairs
@@ -32,6 +32,7 @@ from studies.operators.equations import (
 )
 from studies.operators.makers import hexagonal, of_edges, of_particles
 from studies.operators.scheme import LayerGrowth, euler_limit, sound, viscosities
+from studies.operators.wall_heat import NU, layer, through_faces, through_pairs
 from studies.operators.weights import (
     around,
     gradient_symbol,
@@ -228,3 +229,26 @@ def test_a_triangular_lattice_has_six_neighbours_at_one_distance():
     points = hexagonal((9, 9), 0.0, 1)
     r = pairs(points, 1.5)[3]
     assert len(r) == 3*points.n and np.ptp(r) < 1e-12 and points.a == pytest.approx(1.0)
+
+
+def test_heat_through_a_plate_is_a_sum_over_pairs_with_images_whatever_pushes():
+    points = jittered((9, 8), 0.2, 1)
+    scene, T = layer(points)
+    x, y = points.x.T
+    dx = (x[:, None] - x + 4.5) % 9.0 - 4.5
+    rho, nu = np.zeros(len(x)), []
+    for side in (0.0, -8.0, 8.0):           # itself, and images behind the lower and the upper plate
+        dy = y[:, None] - (side - y if side else y)
+        w, slope = np.vectorize(lambda r: value_and_slope(WendlandC2.of(h=3.0), r))(np.hypot(dx, dy))
+        rho += w.sum(axis=1)
+        nu.append(-2*slope*(T[:, None] + T - 2*(scene.T_hot if side < 0 else scene.T_cold)))
+    lower, upper = ((f/rho[:, None]/rho).sum()*scene.L/scene.dT/scene.width for f in nu[1:])
+    heat = through_pairs(points, "sph")
+    np.testing.assert_allclose(heat, [-lower, upper], rtol=1e-11)
+    for maker in ("sumB", "CRKSPH", "riemann"):
+        np.testing.assert_allclose(through_pairs(points, maker), heat, rtol=1e-12)
+
+
+def test_heat_through_images_behind_triangles_on_a_lattice_is_of_second_order():
+    coarse, fine = (abs(through_faces(lattice((n, n)), delaunay)/NU - 1).max() for n in (12, 24))
+    assert coarse/fine == pytest.approx(4, rel=0.1)

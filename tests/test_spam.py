@@ -1,4 +1,5 @@
 """The rates of SPAM: equal to the slow twin in every variant, conservative, invariant, thread by thread."""
+from dataclasses import replace
 from itertools import cycle
 from types import SimpleNamespace
 from typing import Any, NamedTuple
@@ -6,15 +7,18 @@ from typing import Any, NamedTuple
 import numpy as np
 import plain
 import pytest
-from crowd import crowd, everywhere, prepare, rates
+from crowd import crowd, everywhere, lattice, prepare, rates
 
 from continuum.fluid import EQUATIONS_OF_STATE, ConstEta, ConstNu, DenseFluid, IdealGas, PowerLaw, VanDerWaals
+from continuum.scene import RayleighBenard
+from particles.smooth.adiabatic import AdiabaticMfm
 from particles.smooth.corrected import AllCorrected, Corrected, Reversed, Symmetrised
 from particles.smooth.meshless import Crksph, Mfm, limited, reproducing
 from particles.smooth.riemann import LowDissipationSums
 from particles.smooth.spam import LessStatic, Spam
 from particles.smooth.sums import Direct, Nested
 from particles.terms import ArithmeticGradients
+from particles.threads import Threads
 from particles.walls.fixed import fixed_plates
 from particles.walls.mirror import AtWall, Copied, Odd, Own, plates, sides
 from particles.walls.periodic import periodic
@@ -73,8 +77,10 @@ SETUPS = {
     "CRKSPH": Setup(WendlandC2, VanDerWaals(), NU, closed(Odd(), Copied()), {"transport": Crksph}),
     "CRKSPH, periodic": Setup(Lucy, IdealGas(), ETA, everywhere(BOX), {"transport": Crksph}),
     "MFM": Setup(WendlandC2, DenseFluid(), NU, closed(Odd(), Copied()), {"transport": Mfm}),
-    "MFM, less static": Setup(WendlandC4, IdealGas(), ETA, PERIODIC + plates(BOX[1], HOT, COLD, Odd(), Own()),
+    "MFM, less static": Setup(WendlandC4, IdealGas(), ETA, PERIODIC + plates(BOX[1], HOT, COLD, Odd()),
                               {"transport": Mfm, "static": LessStatic(0.5, 1.2, 0.9)}),
+    "MFM, adiabatic": Setup(WendlandC2, DenseFluid(), NU, closed(Odd(), Copied()),
+                            {"transport": AdiabaticMfm}),
     "riemann": Setup(WendlandC2, DenseFluid(), ETA, closed(Odd(), Copied()),
                      {"transport": LowDissipationSums}),
     "less static": Setup(WendlandC2, VanDerWaals(), NU, closed(Odd(), Own()),
@@ -125,7 +131,7 @@ COMPANY = [free(weight, eos, ETA) for weight,
 COMPANY += [free(gradients=ArithmeticGradients()), free(transport=Direct),
             free(WendlandC2, VanDerWaals(), POWER)]
 COMPANY += [free(WendlandC2, law=POWER, transport=kind)
-            for kind in (AllCorrected, Corrected, Reversed, Symmetrised, Crksph, Mfm)]
+            for kind in (AllCorrected, Corrected, Reversed, Symmetrised, Crksph, Mfm, AdiabaticMfm)]
 COMPANY += [free(WendlandC2, transport=LowDissipationSums)]
 each = pytest.mark.parametrize("spam", COMPANY, ids=lambda s: " ".join(
     [type(s.weight).__name__, type(s.eos).__name__, type(s.law).__name__, type(s.gradients).__name__,
@@ -227,3 +233,21 @@ def test_walls_at_rest_do_no_work_on_a_riemann_problem():
     state = np.array([x, y, 0*x, np.where(abs(y) > 3, 0.1*np.sign(y), 0.0), 1 + 0*x])
     out = rates(spam, state)
     assert abs((state[3]*out[3] + out[4]).sum()) < 1e-13
+
+
+def test_pressure_heats_a_layer_at_rest_at_its_plates_in_printed_mfm_alone():
+    """Where images copy P its slope is half of that of the weight: v* of what jumps there carries heat."""
+    scene, walls = RayleighBenard(ra=1e4, L=12.0, aspect=1.0), (Odd(), Copied())
+    spam = Spam(weight=WendlandC2.of(h=3.0), eos=IdealGas(), law=ConstEta(0.1, 0.0), g=scene.g,
+                box=(12.0, 12.0), walls=periodic(12.0) + plates(12.0, scene.T_hot, scene.T_cold, *walls))
+    x = np.stack(lattice((12.0, 12.0), 12, 12), axis=1)
+    state = spam.state(x, 1.0, 0*x, scene.fields(x)[2])
+    printed, *others = (abs(rates(replace(spam, transport=kind), state)[4]).max()
+                        for kind in (Mfm, AdiabaticMfm, Crksph))
+    assert max(others) < 1e-13 and printed > 0.1*scene.k*scene.dT/scene.L
+
+
+def test_mfm_refuses_images_that_do_not_copy_pressure():
+    spam = free(transport=Mfm)
+    with pytest.raises(ValueError, match=r"mirrored as images copy it, not as Own\(\) .* take Copied\(\)"):
+        replace(spam, walls=closed(Odd(), Own())).start(9, Threads(1))

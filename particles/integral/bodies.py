@@ -11,6 +11,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+#: spacings between a surface and points off it: nearer ones would cut its edges or take short steps
+CLEAR = 0.6
+
 
 class Held(NamedTuple):
     """Points `which` (m,) held at v (m, 2) and T (m,); T nan: they get `heat` (m,), per time, and no other.
@@ -73,3 +76,16 @@ def with_sides(inner: np.ndarray, size: tuple[float, float],
     rows = [left, left*[-1, 1], bottom, bottom*[1, -1], corners]
     ends = np.cumsum([0, *map(len, rows)])
     return np.concatenate([*rows, inner]), Rows(*map(np.arange, ends[:-1], ends[1:]))
+
+
+def on_circle(radius: float) -> np.ndarray:
+    """Points (n, 2) about one apart on a circle."""
+    n = round(2*np.pi*radius)
+    angle = 2*np.pi*(np.arange(n) + 0.5)/n
+    return radius*np.stack([np.cos(angle), np.sin(angle)], axis=1)
+
+
+def with_disc(x: np.ndarray, radius: float) -> tuple[np.ndarray, np.ndarray]:
+    """Points (n, 2) with a circle about the middle in place of those in it or near it, and which it has."""
+    circle, r = on_circle(radius), np.hypot(*x.T)
+    return np.concatenate([circle, x[r > radius + CLEAR]]), np.arange(len(circle))

@@ -1,30 +1,33 @@
-"""What edges that close exchange of an ideal gas so that no entropy is lost or destroyed, in 2D.
+"""What edges that close exchange of a fluid so that no entropy is lost or destroyed, in 2D.
 
-In place of convection and pressure a scene lists `Logarithmic` and one of two pressures, which together keep
-sum V rho s to round-off [Tadmor 1987]: `exchange.Pressure`, RR98's own crossed one, is as accurate as their
-brackets, `MeanPressure` keeps contacts. `Dissipation` goes with either; two states cannot make it destroy
-entropy. {} is the mean of both points, _ln the logarithmic one.
+In place of convection and pressure a scene lists `Logarithmic` and one of three pressures, which together
+keep sum V rho s to round-off [Tadmor 1987]: `exchange.Pressure`, RR98's own crossed one, is as accurate as
+their brackets, and does so in an ideal gas; `MeanPressure` keeps contacts; `BlendedPressure` is the first
+where flow is smooth and the second at contacts. `Dissipation` goes with any; two states cannot make it
+destroy entropy. {} is the mean of both points, _ln the logarithmic one.
 """
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from continuum.fluid import IdealGas
-from continuum.jit import formula, generic, jit
+from continuum.jit import formula, generic
 from particles.integral.exchange import pressure_of
+from particles.neighbours import u64
 from particles.pairs import pair_term
 
 STEEP, STEEPEST = 6, 20.0       # power of the sensor; what weighs a bend of the pressure, over its mean
 SLOW = 0.1                      # of |v|, in the speed of shear and entropy waves that stand still on an edge
 CALM, ROUNDING = 1e-3, 1e-12    # parts of a full jump, and of a field, below which nothing is dissipated
 STILL = CALM**(1/STEEP)
+LN2, MANTISSA, HALF = np.log(2), u64(52), u64((2*1023 + 1) << 51)      # of a number's bits; 1/2 more than 2^0
 
 
 class Logarithmic(NamedTuple):
-    """m = S.{w - v} rho_ln comes in, with {v} and c_v/(1/T)_ln + v_a.v_b/2    [Chandrashekar 2013]
+    """m = S.{w - v} rho* comes in, with {v} and e* + v_a.v_b/2, of `log_means`    [Chandrashekar 2013]
 
-    With q = d(-rho s)/d(rho, rho v, eps), U_ln = rho_ln (1, {v}, ..) has Dq.U_ln = D(rho), and a volume that
-    grows by S.{w} takes -rho s - q.U = -rho times it: of an edge that moves at {w} both add up to nothing.
+    With q = d(-rho s)/d(rho, rho v, eps), U* = rho* (1, {v}, ..) has Dq.U* = D(P/T), and a volume that grows
+    by S.{w} takes -rho s - q.U = -P/T times it: of an edge that moves at {w} both add up to nothing.
     """
     eos: Any
 
@@ -34,26 +37,41 @@ class MeanPressure(NamedTuple):
     eos: Any
 
 
+class BlendedPressure(NamedTuple):
+    """w of `MeanPressure`, 1 - w of P_a T_b/T_a and P_b T_a/T_b, which is `Pressure` of an ideal gas.
+
+    Where P_a = P_b the crossed one is too large by x = (DT)^2/(2 T_a T_b). With y = DP/{P}, w = x^2/(x^2 +
+    y^2): what is added to {P} is never more than 5/4 |DP|, and nothing at a contact; w is of second order
+    where flow is smooth. Each keeps entropy, and so does any blend that is the same from both ends.
+    """
+    eos: Any
+
+
 class Dissipation(NamedTuple):
-    """|S|/2 R L psi T R^T Dw: of jumps in sound, entropy and shear what no straight line explains, psi = s^m;
-    points have gradients, edges lead along (dx, dy)    [Barth 1999; Jameson 1995]"""
+    """|S|/2 R L psi T R^T Dw: of jumps in sound, entropy and shear what no straight line explains, psi = s^m,
+    and more in shocks; points have gradients, edges lead along (dx, dy)    [Barth 1999; Jameson 1995]"""
     eos: Any
 
 
 @formula
 def over_mean(a, b):
-    """ln(b/a)/2 over (b - a)/(b + a), by its series where both are near    [Ismail & Roe 2009]"""
-    x = (b - a)/(b + a)
-    f = x*x
-    if f > 0.01:
-        return np.log(b/a)/(2*x)
-    return 1 + f*(1/3 + f*(1/5 + f*(1/7 + f*(1/9 + f*(1/11 + f*(1/13 + f/15))))))
+    """ln(b/a)/2 over (b - a)/(b + a), by its series where both are near    [Ismail & Roe 2009]
+
+    Without a branch: b is divided by the power of two that brings it nearest to a, from the bits of both.
+    """
+    two = (np.float64(b).view(np.uint64) + HALF - np.float64(a).view(np.uint64)) >> MANTISSA
+    k, near = np.float64(np.int64(two) - 1023), a*np.uint64(two << MANTISSA).view(np.float64)
+    x, y = (b - a)/(b + a), (b - near)/(b + near)
+    f = y*y
+    s = 1 + f*(1/3 + f*(1/5 + f*(1/7 + f*(1/9 + f*(1/11 + f*(1/13 + f*(1/15 + f*(1/17 + f*(1/19 + f*(
+        1/21 + f/23))))))))))
+    return s if k == 0 else (0.5*LN2*k + y*s)/x
 
 
 @generic
 def log_means(eos, a, b):
-    """Densities and energies whose products with D(1/rho), D(1/T) are D(s) between two points: of fluids that
-    have an entropy s."""
+    """rho* and e* of D(P/T) = rho* (D(g/T) - e* D(1/T)), g = e + P/rho - T s, between two points: of fluids
+    that have an entropy s."""
 
 
 log_means.of(IdealGas)(lambda eos, a, b: (0.5*(a.rho + b.rho)/over_mean(a.rho, b.rho),
@@ -74,6 +92,18 @@ def _(term, a, b, ab):
     return 0.0, -ab.sx*P, -ab.sy*P, -P_a*(ab.sx*b.vx + ab.sy*b.vy) - P_b*(ab.sx*a.vx + ab.sy*a.vy)
 
 
+@pair_term(BlendedPressure, 4)
+def _(term, a, b, ab):
+    P_a, P_b, ratio = pressure_of(term.eos, a.rho, a.T), pressure_of(term.eos, b.rho, b.T), b.T/a.T
+    x, y = (b.T - a.T)**2/(2*a.T*b.T), 2*(P_b - P_a)/(P_a + P_b)
+    cross = y*y/(x*x + y*y + 1e-300)
+    with_a = cross*P_a*ratio + (1 - cross)*P_b + b.hydro
+    with_b = cross*P_b/ratio + (1 - cross)*P_a
+    P = with_a + with_b - 2*a.P
+    return (0.0, -ab.sx*P, -ab.sy*P,
+            -with_a*(ab.sx*a.vx + ab.sy*a.vy) - with_b*(ab.sx*b.vx + ab.sy*b.vy))
+
+
 @formula
 def bend(d, one, other, jump):
     """psi of a difference d along an edge, twice what gradients at its ends say of it; and what van Albada's
@@ -90,25 +120,48 @@ def calm(d, one, other, scale):
     return abs(one + other - 4*d) <= STILL*(abs(one - d) + 2*abs(d) + abs(other - d)) + ROUNDING*scale
 
 
+@formula
+def unturned(a, b, ab):
+    """(div v)^2/((div v)^2 + (rot v)^2) of two points, 1 where neither is CALM of sound's passage: tells a
+    shock's bend of the pressure from what holds a vortex together    [Ducros et al. 1999]"""
+    along = ab.dx*ab.dx + ab.dy*ab.dy
+    shrinks = CALM*CALM*a.c*b.c + along*((a.u_x + a.v_y)**2 + (b.u_x + b.v_y)**2)
+    return shrinks/(shrinks + along*((a.v_x - a.u_y)**2 + (b.v_x - b.u_y)**2))
+
+
+@formula
+def jumps(a, b, ab):
+    """Differences along an edge of P, rho, v_x and v_y, as in `bend`."""
+    x, y, mean = 2*ab.dx, 2*ab.dy, 0.5*(a.rho + b.rho)
+    # to an image: pressure less the weight above, so that what leaves there comes back by its parent
+    weight = mean*b.g
+    P = (b.P - a.P + mean*b.hydro/b.rho + weight*ab.dy, x*a.P_x + y*(a.P_y + weight),
+         x*b.P_x + y*(b.P_y - weight))
+    return (P, (b.rho - a.rho, x*a.rho_x + y*a.rho_y, x*b.rho_x + y*b.rho_y),
+            (b.vx - a.vx, x*a.u_x + y*a.u_y, x*b.u_x + y*b.u_y),
+            (b.vy - a.vy, x*a.v_x + y*a.v_y, x*b.v_x + y*b.v_y))
+
+
+@formula
+def astir(a, b, ab, P, r, by_x, by_y):
+    """Does an edge dissipate? All of it is computed, for vector instructions, which no branch may end."""
+    sx, sy, (dP, P0, P1), (drho, r0, r1), (du, u0, u1), (dv, v0, v1) = ab.sx, ab.sy, P, r, by_x, by_y
+    c2, both, speed = a.c*b.c, a.P + b.P, (abs(sx) + abs(sy))*(a.c + b.c)
+    return not ((STEEPEST*abs(P0 + P1 - 4*dP) <= CALM*both) & calm(dP, P0, P1, both)
+                & calm(c2*drho - dP, c2*r0 - P0, c2*r1 - P1, both)
+                & calm(sx*du + sy*dv, sx*u0 + sy*v0, sx*u1 + sy*v1, speed)
+                & calm(sx*dv - sy*du, sx*v0 - sy*u0, sx*v1 - sy*u1, speed))
+
+
 @pair_term(Dissipation, 4)
 def _(term, a, b, ab):
-    sx, sy, x, y, mean = ab.sx, ab.sy, 2*ab.dx, 2*ab.dy, 0.5*(a.rho + b.rho)
-    drho, du, dv, weight = b.rho - a.rho, b.vx - a.vx, b.vy - a.vy, mean*b.g
-    # to an image: pressure less the weight above, so that what leaves there comes back by its parent
-    dP = b.P - a.P + mean*b.hydro/b.rho + weight*ab.dy
-    r0, r1 = x*a.rho_x + y*a.rho_y, x*b.rho_x + y*b.rho_y
-    P0, P1 = x*a.P_x + y*(a.P_y + weight), x*b.P_x + y*(b.P_y - weight)
-    u0, u1, v0, v1 = x*a.u_x + y*a.u_y, x*b.u_x + y*b.u_y, x*a.v_x + y*a.v_y, x*b.v_x + y*b.v_y
-    c2, both, speed = a.c*b.c, a.P + b.P, (abs(sx) + abs(sy))*(a.c + b.c)
-    if (STEEPEST*abs(P0 + P1 - 4*dP) <= CALM*both and calm(dP, P0, P1, both)
-            and calm(c2*drho - dP, c2*r0 - P0, c2*r1 - P1, both)
-            and calm(sx*du + sy*dv, sx*u0 + sy*v0, sx*u1 + sy*v1, speed)
-            and calm(sx*dv - sy*du, sx*v0 - sy*u0, sx*v1 - sy*u1, speed)):
-        return 0.0, 0.0, 0.0, 0.0
-    return waves(term.eos, a, b, ab, (dP, P0, P1), (drho, r0, r1), (du, u0, u1), (dv, v0, v1))
+    P, r, by_x, by_y = jumps(a, b, ab)
+    if astir(a, b, ab, P, r, by_x, by_y):
+        return brought(term.eos, a, b, ab, P, r, by_x, by_y)
+    return 0.0, 0.0, 0.0, 0.0
 
 
-@jit
+@formula
 def waves(eos, a, b, ab, P, r, by_x, by_y):
     """What jumps in sound, along the normal, in entropy and in shear bring; differences as in `bend`."""
     size, cv, gamma = np.sqrt(ab.sx*ab.sx + ab.sy*ab.sy), eos.cv, 1 + 1/eos.cv
@@ -122,7 +175,7 @@ def waves(eos, a, b, ab, P, r, by_x, by_y):
     of_n, n_line = bend(dun, u0*nx + v0*ny, u1*nx + v1*ny, dun)
     of_t, _ = bend(dut, v0*nx - u0*ny, v1*nx - u1*ny, dut)
     of_s, s_line = bend(drho - dP/c2, r0 - P0/c2, r1 - P1/c2, drho - (b.P - a.P)/c2)
-    sigma = min(1.0, STEEPEST*abs(P0 + P1 - 4*dP)/(a.P + b.P))
+    sigma = min(1.0, STEEPEST*unturned(a, b, ab)*abs(P0 + P1 - 4*dP)/(a.P + b.P))
     rx, ry = 0.5*(a.rx + b.rx), 0.5*(a.ry + b.ry)
     flow, fast = np.sqrt(rx*rx + ry*ry), fastest(a, b, ab)
     slow = size*np.sqrt((rx*nx + ry*ny)**2 + (SLOW*flow)**2)
@@ -147,3 +200,11 @@ def fastest(a, b, ab):
     """|S|/2 (|(v - {w}).n| + c) of the faster one of two points."""
     size, (one, other) = np.sqrt(ab.sx*ab.sx + ab.sy*ab.sy), against(a, b, ab)
     return max(abs(one) + size*a.c, abs(other) + size*b.c)
+
+
+@generic
+def brought(eos, a, b, ab, P, r, by_x, by_y):
+    """What all four kinds of waves bring to a, of the fluid that there is."""
+
+
+brought.of(IdealGas)(lambda eos, a, b, ab, P, r, by_x, by_y: waves(eos, a, b, ab, P, r, by_x, by_y))

@@ -1,17 +1,21 @@
 """Layers whose flux survives shocks and vacua: listed `entropy_fluxes`, and steps that are `positive`."""
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from math import ceil, inf
 from typing import Any, ClassVar
 
 import numpy as np
 
-from continuum.fluid import sound_speed
+import particles.integral.van_der_waals  # noqa: F401  (registers its formulas)
+from continuum.fluid import IdealGas, energy, sound_speed
 from continuum.jit import check_formulas, jit
-from particles.integral.entropy_fluxes import Dissipation, Logarithmic, log_means
-from particles.integral.exchange import Listing, Pressure, pressure_of
-from particles.integral.fixed import Point, stored
+from particles.integral.edges import NONE_BEYOND, NOWHERE
+from particles.integral.entropy_fluxes import BlendedPressure, Dissipation, Logarithmic, log_means
+from particles.integral.exchange import At, Exchange, Pressure, Stage, pressure_of
+from particles.integral.fixed import FixedSums, Point, stored
 from particles.integral.layer import Layer, LayerSums
+from particles.integral.once import Sending
 from particles.integral.positive import COURANT, LEAST, MORE, OLD, PART, Limits, Slopes, divided
+from particles.integral.stream import Stream, Streaming, keep
 from particles.limits import limit_of
 from particles.pairs import Faces, sweep
 from particles.threads import Threads
@@ -25,41 +29,63 @@ def _sound(first, last, eos, points):
     for i in range(first, last):
         a = points[i]
         a.P, a.rx, a.ry = pressure_of(eos, a.rho, a.T), -a.vx, -a.vy
-        a.c = sound_speed(eos, a.rho, eos.cv*a.T)
+        a.c = sound_speed(eos, a.rho, energy(eos, a.rho, a.T))
 
 
-class StableSums(Limits, LayerSums):
-    """The compiled sums."""
-    method: "StableLayer"
+@jit
+def _mirrored(origin, points, n):
+    """Gradients of images."""
+    for m in range(len(origin)):
+        a, b = points[origin[m]], points[n + m]
+        b.rho_x, b.P_x, b.u_x, b.v_y = a.rho_x, a.P_x, a.u_x, a.v_y
+        b.rho_y, b.P_y, b.u_y, b.v_x = -a.rho_y, -a.P_y, -a.u_y, -a.v_x
 
-    def __init__(self, method: "StableLayer", threads: Threads):
-        super().__init__(method, threads)
-        n, beyond = self.n, method.beyond
+
+class Sent(Exchange):
+    """Listed terms, each edge once, and their stages."""
+
+    def __init__(self, stages: tuple[Stage, ...], sending: Sending, slopes: np.ndarray):
+        self.stages, self.sending, self.slopes, self.total = stages, sending, slopes, sending.total
+
+    def sum(self, at: At) -> np.ndarray:
+        total = self.sending.sum(at.points, self.slopes)
+        for stage in self.stages:
+            stage.add(at, total)
+        return total
+
+
+class Stable(Limits, FixedSums):
+    """What compiled sums over stored edges share, before those of a kind of scene."""
+
+    def __init__(self, method: Any, threads: Threads):
+        super().__init__(method, threads)  # type: ignore[call-arg]
+        n, beyond = self.n, getattr(method, "beyond", NONE_BEYOND)
+        image = getattr(self, "image", NOWHERE)
         self.set_limits(method.flow)
         self.points = np.zeros(len(self.points), StablePoint)
-        self.points["g"][n:] = method.g
+        self.points["g"][n:] = -self.push[1]
         near, far = replace(method.edges, S=2*method.edges.apart), replace(beyond, S=2*beyond.apart)
-        along = stored(near, far, n + self.image)
+        along = stored(near, far, n + image)
         edges = Faces(**self.at.edges._asdict(), dx=along.sx, dy=along.sy)
         self.at, self.edges = self.at._replace(points=self.points, edges=edges), edges
         self.images = self.at.images
-        self.exchange.term = Listing((*method.transport, *method.flow))
+        self.sending.follow(edges)
+        self.exchange = Sent(self.exchange.stages, self.sending, self.slopes)
         k = 2*np.bincount(beyond.i, beyond.k, n) - method.edges.laplacian.diagonal()
         self.spread = k/self.at.V
 
     def surround(self, state: np.ndarray) -> None:
-        """Images; gradients, of images as in a mirror."""
+        """Images and held points; gradients, of images as in a mirror."""
         super().surround(state)
         points, V = self.points, self.at.V
         self.threads(_sound, len(points), self.method.eos, points)
         self.threads(sweep, self.n, Slopes(), points, self.at.edges, self.slopes)
         self.threads(divided, self.n, self.slopes, V, points)
-        self.at.images.fill(points, ("rho_x", "P_x", "u_x", "v_y"), ("rho_y", "P_y", "u_y", "v_x"))
+        _mirrored(self.images.origin, points, self.n)
 
     def longest(self) -> float:
         """The step that is known to keep a state positive that was looked at."""
-        sound = self.slopes[:, 8]
-        return float(1/PART/np.max(sound/self.at.V/COURANT + self.spread*self.chi))
+        return float(1/PART/np.max(self.speeds/self.at.V/COURANT + self.spread*self.chi))
 
     def euler(self, state: np.ndarray, dt: float, rates: np.ndarray) -> bool:
         """Go on by dt from a state with these rates; False: not even Rusanov's flux leaves rho, e > 0."""
@@ -70,6 +96,28 @@ class StableSums(Limits, LayerSums):
             return False
         state += less
         return True
+
+
+class StableSums(Stable, LayerSums):
+    """Of a layer."""
+    method: "StableLayer"
+
+
+class StableStreaming(Stable, Streaming):
+    """Around held points. received (m, 3) : what they take, after `euler` the mean over it, with limits."""
+    method: "StableStream"
+
+    def settle(self) -> None:
+        """Held points take what would change their velocity or temperature."""
+        held, kept = self.method.held, np.empty((4, self.n))
+        keep(self.method.eos, *held[:3], self.gain, np.ones(self.n), self.points, self.more, kept)
+        self.gain[held.which] = kept[:, held.which].T
+
+    def euler(self, state: np.ndarray, dt: float, rates: np.ndarray) -> bool:
+        self.more = np.zeros_like(self.received)
+        done = super().euler(state, dt, rates)
+        self.received += self.more
+        return done
 
 
 class Positive:
@@ -97,8 +145,18 @@ class Positive:
         if number:
             sums.rates(y, self._k)
         done: bool = sums.euler(y, PART*h, self._k)
-        y[:] = OLD[number]*self._start + (1 - OLD[number])*y
+        if OLD[number]:
+            y[:] = OLD[number]*self._start + (1 - OLD[number])*y
         return done
+
+
+def flow_of(method: Any, pressure: Any) -> None:
+    """Gives a method the usual terms if it lists none: a pressure for an ideal gas, the blended one for
+    others. Raises TypeError: its fluid has no entropy."""
+    eos = method.eos
+    check_formulas(eos, log_means)
+    chosen = pressure if isinstance(eos, IdealGas) else BlendedPressure
+    object.__setattr__(method, "flow", method.flow or (Logarithmic(eos), chosen(eos), Dissipation(eos)))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -110,13 +168,43 @@ class StableLayer(Layer):
     sums = StableSums
 
     def __post_init__(self):
-        check_formulas(self.eos, log_means)
-        usual = Logarithmic(self.eos), Pressure(self.eos), Dissipation(self.eos)
-        object.__setattr__(self, "flow", self.flow or usual)
+        flow_of(self, Pressure)
+        for name in ("edges", "beyond"):        # as at the end of a weight's range
+            object.__setattr__(self, name, of_some_area(getattr(self, name)))
+
+
+def of_some_area(edges: Any) -> Any:
+    """Edges that anything passes."""
+    some = (edges.k != 0) | edges.S.any(axis=1)
+    return replace(edges, **{field.name: getattr(edges, field.name)[some] for field in fields(edges)
+                             if field.name != "V"})
+
+
+@dataclass(frozen=True, kw_only=True)
+class StableStream(Stream):
+    """The same around held points."""
+    flow: tuple = ()
+
+    integrator: ClassVar[type] = Positive
+    sums = StableStreaming
+
+    def __post_init__(self):
+        super().__post_init__()
+        flow_of(self, Pressure)
+
+
+def longest(method: Any, start: np.ndarray) -> float:
+    """The step that keeps a start positive."""
+    sums = method.start(start.shape[1], Threads(1))
+    sums.look_at(start)
+    return float(sums.longest())
 
 
 @limit_of.register
 def _(method: StableLayer, start: np.ndarray) -> float:
-    sums = method.start(start.shape[1], Threads(1))
-    sums.look_at(start)
-    return sums.longest()
+    return longest(method, start)
+
+
+@limit_of.register
+def _(method: StableStream, start: np.ndarray) -> float:
+    return longest(method, start)

@@ -9,10 +9,10 @@ from typing import Any
 
 import numpy as np
 
-from continuum.jit import check_formulas
 from particles.integral import march
 from particles.integral.carried import EXCHANGED, complete, follow, heat, hold, read, receive
-from particles.integral.entropy_fluxes import Dissipation, Logarithmic, MeanPressure, log_means
+from particles.integral.entropy_fluxes import MeanPressure
+from particles.integral.entropy_stable import flow_of
 from particles.integral.exchange import Listing
 from particles.integral.fixed import NO_IMAGES, check_number, first_invalid
 from particles.integral.moving_delaunay import MovingDelaunay, RingSums
@@ -35,7 +35,7 @@ class StableRings(Limits, RingSums):
         super().__init__(method, threads)
         self.set_limits(method.flow)
         self.images, self.slowed, self.turned = NO_IMAGES, 0, -1
-        self.total = np.zeros((self.n, 4))
+        self.whole = np.zeros((self.n, 8))
         self.points = np.zeros(self.n, Point)
         self.bench = self.bench._replace(points=self.points)
         self.fluid = self.fluid._replace(terms=Listing((*method.transport, *method.flow)))
@@ -73,12 +73,13 @@ class StableRings(Limits, RingSums):
         read(self.threads, n, y, eos, self.method.law, points)
         self.threads(_sound, n, eos, y, points)
         self.threads(sweep, n, Slopes(), points, self.edges, self.slopes)
+        np.copyto(self.whole, self.slopes)
         self.threads(_at_sides, n, Slopes(), points, rings, self.slopes)
         self.threads(divided, n, self.slopes, self.V, points)
 
     def longest(self, y: np.ndarray) -> float:
         """The step that is known to keep a state positive that was looked at; nan on no triangulation."""
-        sound = (self.slopes[:, 8] - self.bench.flow/2)/y[7]
+        sound = (self.speeds - self.bench.flow/2)/y[7]
         return float(1/PART/np.max(sound/COURANT + self.bench.spread*self.chi))
 
     def march(self, state: np.ndarray, dt: float, steps: int) -> None:
@@ -143,6 +144,7 @@ class StableRings(Limits, RingSums):
                 self.widen()
         self.threads(_along, self.n, bench.middle, self.rings)
         self.V = bench.V.copy()
+        self.sending.follow(self.edges)
         if turned < 0:
             turned = max(self.threads(_turned, self.n, y[:2] + h*y[2:4], self.rings))
         return int(turned)
@@ -155,8 +157,7 @@ class StableRings(Limits, RingSums):
     def euler(self, y: np.ndarray, h: float) -> bool:
         """One step of what is exchanged, places apart; False: not even Rusanov's flux leaves rho, e > 0."""
         bench, g = self.bench, self.method.g
-        self.threads(sweep, self.n, self.fluid.terms, self.points, self.edges, self.total)
-        (m, px, py, E), once = self.total.T, bench.once.T
+        (m, px, py, E), once = self.sending.sum(self.points, self.whole).T, bench.once.T
         before = y[DENSITIES]/y[7]
         y[EXCHANGED] += h*np.stack([px + once[0], py + once[1] - g*y[6], m, bench.flow, E + once[2] - g*y[5]])
         self.lost = self.n if (y[7] > 0).all() else int(y[7].argmin())
@@ -201,9 +202,7 @@ class StableDelaunay(MovingDelaunay):
 
     def __post_init__(self):
         super().__post_init__()
-        check_formulas(self.eos, log_means)
-        usual = Logarithmic(self.eos), MeanPressure(self.eos), Dissipation(self.eos)
-        object.__setattr__(self, "flow", self.flow or usual)
+        flow_of(self, MeanPressure)
 
     def start(self, n: int, threads: Threads) -> StableRings:
         """The sums over the triangulation. Raises ValueError: a state of another number of points."""

@@ -8,10 +8,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.jit import formula, jit
+from continuum.fluid import IdealGas
+from continuum.jit import formula, generic, jit
 from particles.integral.entropy_fluxes import Dissipation, against, fastest
 from particles.integral.exchange import Listing
 from particles.integral.fixed import first_invalid, inner
+from particles.integral.once import Sending
 from particles.lists import Ghosts
 from particles.pairs import Faces, pair_term, rate, sweep
 from particles.threads import Threads
@@ -22,7 +24,7 @@ LEAST = 1e-6                    # part of a step that halving goes down to
 #: they keep one by one they keep together    [Kraaijevanger 1991]
 PART, OLD = 0.5, (0.0, 0.0, 2/3, 0.0)
 
-SLOPES = ("rho_x", "rho_y", "P_x", "P_y", "u_x", "u_y", "v_x", "v_y")
+SLOPES = ("rho_x", "u_x", "v_x", "P_x", "rho_y", "u_y", "v_y", "P_y")
 #: density, momentum and energy by Rusanov's flux; a step per volume and edge
 LOW = ("low_rho", "low_px", "low_py", "low_eps", "room")
 #: what these terms read and others do not: slopes, the speed of sound, gravity of images
@@ -30,7 +32,11 @@ MORE = (*SLOPES, "c", "g", *LOW)
 
 
 class Slopes(NamedTuple):
-    """V grad of rho, P and v by differences; |S|/2 (|v.n| + c)."""
+    """V grad of rho, v and P by differences."""
+
+
+class Sound(NamedTuple):
+    """|S|/2 (|(v - {w}).n| + c)"""
 
 
 class Excess(NamedTuple):
@@ -43,10 +49,15 @@ class Limited(NamedTuple):
     excess: Excess
 
 
-@pair_term(Slopes, 9)
+@pair_term(Slopes, 8)
 def _(term, a, b, ab):
-    x, y, rho, P, u, v = ab.sx, ab.sy, b.rho - a.rho, b.P + b.hydro - a.P, b.vx - a.vx, b.vy - a.vy
-    return x*rho, y*rho, x*P, y*P, x*u, y*u, x*v, y*v, fastest(a, b, ab)
+    x, y, rho, u, v, P = ab.sx, ab.sy, b.rho - a.rho, b.vx - a.vx, b.vy - a.vy, b.P + b.hydro - a.P
+    return x*rho, x*u, x*v, x*P, y*rho, y*u, y*v, y*P
+
+
+@pair_term(Sound, 1)
+def _(term, a, b, ab):
+    return (fastest(a, b, ab),)
 
 
 @pair_term(Excess, 4)
@@ -115,7 +126,15 @@ class Limits:
         """Room, for the listed terms that limits are for."""
         self.refused, self.limited, self.lost = 0, 0, self.n
         self.excess, self.gain = Excess(Listing(flow)), np.zeros((self.n, 4))
-        self.slopes = np.zeros((self.n, 9))
+        self.leaves_out = limited(self.method.eos, self.excess)
+        self.slopes, self.fastest = np.zeros((self.n, 8)), np.zeros((self.n, 1))
+        self.sending = Sending(flow, self.method.transport, self.n, self.threads)
+
+    @property
+    def speeds(self) -> np.ndarray:
+        """Of points looked at, over all of their edges."""
+        self.threads(sweep, self.n, Sound(), self.points, self.edges, self.fastest)
+        return self.fastest[:, 0]
 
     @property
     def chi(self) -> np.ndarray:
@@ -126,20 +145,26 @@ class Limits:
     def less(self, before: np.ndarray, after: np.ndarray, per_V: np.ndarray) -> Any:
         """What a step, per volume (n,), from densities (4, n) to those after may not take, to be added again;
         None if not even Rusanov's flux leaves rho, e > 0."""
-        n, points, edges = self.n, self.points, self.edges
-        if not sum(self.threads(fallen, n, before, after)):
+        n, points, edges, eos = self.n, self.points, self.edges, self.method.eos
+        if not (crowded(eos, before, after)
+                or sum(self.threads(fallen, n, above_cold(eos, before), above_cold(eos, after)))):
             return 0.0
         self.limited += 1
         self.threads(sweep, n, self.excess, points, edges, self.gain)
+        self.settle()
         low = after - per_V*self.gain.T
-        self.lost = first_invalid(low, self.method.eos)
+        self.lost = first_invalid(low, eos)
         if self.lost < n:
             return None
-        for name, values in zip(LOW, (*low, per_V*edges.taken)):
+        for name, values in zip(LOW, (*above_cold(eos, low), per_V*edges.taken)):
             points[name][:n] = values
         self.images.fill(points, tuple(set(LOW) - {"low_py"}), ("low_py",))
-        self.threads(sweep, n, Limited(self.excess), points, edges, self.gain)
+        self.threads(sweep, n, self.leaves_out, points, edges, self.gain)
+        self.settle()
         return per_V*self.gain.T
+
+    def settle(self) -> None:
+        """Changes what was summed up for points that are held; there are none."""
 
 
 @jit
@@ -147,8 +172,8 @@ def divided(first, last, slopes, V, points):
     """Slopes from what differences sum up to."""
     for i in range(first, last):
         a, q, f = points[i], slopes[i], 1/V[i]
-        a.rho_x, a.rho_y, a.P_x, a.P_y = f*q[0], f*q[1], f*q[2], f*q[3]
-        a.u_x, a.u_y, a.v_x, a.v_y = f*q[4], f*q[5], f*q[6], f*q[7]
+        a.rho_x, a.u_x, a.v_x, a.P_x = f*q[0], f*q[1], f*q[2], f*q[3]
+        a.rho_y, a.u_y, a.v_y, a.P_y = f*q[4], f*q[5], f*q[6], f*q[7]
 
 
 @jit
@@ -160,3 +185,23 @@ def fallen(first, last, before, after):
         new, later = inner(after[0, i], after[1, i], after[2, i], after[3, i])
         count += not (new > KEPT*rho and new*later > KEPT*rho*e)
     return count
+
+
+@generic
+def above_cold(eos, state):
+    """Densities (4, n), the energy without what the fluid has at T = 0, which may not fall to 0 either."""
+
+
+@generic
+def crowded(eos, before, after):
+    """Have points lost most of the room that is between molecules?"""
+
+
+@generic
+def limited(eos, excess):
+    """The term that says what edges leave out."""
+
+
+above_cold.of(IdealGas)(lambda eos, state: state)
+crowded.of(IdealGas)(lambda eos, before, after: False)
+limited.of(IdealGas)(lambda eos, excess: Limited(excess))

@@ -25,6 +25,13 @@ def delaunay(points: Points, weight: Any = None) -> Edges:
     return _assembled(points, *_simplices(points, points.box))
 
 
+def around(points: Points, body: np.ndarray) -> Edges:
+    """The same without triangles that have all corners on a convex body: closed on all points but these."""
+    corner, x = _simplices(points, points.box)
+    fluid = ~np.isin(corner, body).all(axis=1)
+    return _assembled(points, corner[fluid], x[fluid])
+
+
 def between(x: np.ndarray, width: float, height: float, closed: tuple[bool, bool] = (False, True)) -> Edges:
     """The same on points (n, 2), some of which lie on plates: y = -+height/2, and if `closed` says so of the
     first axis, x = -+width/2; along the other axis periodic.

@@ -3,7 +3,8 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from particles.smooth.sums import Direct
+from particles.smooth.sums import Direct, check_along_pairs
+from particles.threads import Threads
 from particles.walls import mirrored
 
 MOVED = 0.25        # of the skin: what may be gone of it before a step, in which d leads no farther than that
@@ -13,6 +14,10 @@ class Led(Direct):
     """What shifted and transported particles share; numbers : of one particle; vectors : those that turn."""
     numbers: ClassVar[np.dtype]
     vectors: ClassVar[tuple[tuple[str, str], ...]] = (("dx", "dy"),)
+
+    def __init__(self, method: Any, n: int, threads: Threads):
+        check_along_pairs(method.law)
+        super().__init__(method, n, threads)
 
     def make_ready(self, now: Any, dt: float) -> None:
         if self.around.anchor is not None and self.around.moved(now.state) > MOVED*self.around.skin:

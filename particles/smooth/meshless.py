@@ -6,21 +6,21 @@ Particle i feels -P* S_ij:
     MFM      S_ij = W_ij (V_i B_i + V_j B_j) x_ij, B_i = (sum_j W_ij x_ij x_ij)^-1, x_ij = x_j - x_i; P*
              of a Riemann problem    [Lanson & Vila 2008; Hopkins 2015]
 
-Densities are summed, V = m/rho; friction and heat are those of `corrected`. CRKSPH's smoothed density and
-artificial viscosity are left out.
+Densities are summed; friction and heat are those of `corrected`. Left out is CRKSPH's artificial viscosity.
 """
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
-from continuum.fluid import energy, sound_speed
 from continuum.jit import formula, generic, jit
 from particles.pairs import pair_term, sweep
 from particles.smooth.corrected import FIELDS, Corrected, Point
-from particles.walls import mirrored
+from particles.smooth.sums import sound
+from particles.threads import Threads
+from particles.walls import image_pressure, mirrored
 from particles.weights import shape, value_and_slope
 
-#: numbers of one kind of particle, and how a mirror turns them: along x, along y; -: it reverses them, too
+#: numbers of a kind of particle, and how a mirror turns them: along x, along y; -: it reverses them, too
 #: images have the speed of sound of their particles, not of their T: what touches a wall at rest rests
 REPRODUCING = {"c": "", "p": "", "qx": "x", "qy": "y", "gx": "x", "gy": "y", "qxx": "xx", "qxy": "xy",
                "qyx": "xy", "qyy": "yy"}
@@ -51,8 +51,7 @@ class Differences(Given):
 class Meshless(Given):
     """MFM: states at the middle of a pair, limited, and the acoustic solver    [Hopkins 2015; Toro 2009, 9.3]
 
-    Of his App. B the limiter by extremes of all neighbours is left out, as no flow here has shocks, and the
-    rule that signs do not change, as those of velocities do.
+    Of App. B the limiter by extremes of neighbours is left out, for shocks, and the rule that keeps signs.
     """
 
 
@@ -199,14 +198,14 @@ class Crksph(OverFaces):
 class Mfm(OverFaces):
     sums, columns, kind, turns = Differences, 9, Meshless, MESHLESS
 
+    def __init__(self, method: Any, n: int, threads: Threads):
+        super().__init__(method, n, threads)
+        images = [wall for wall in method.walls if type(wall) in image_pressure.kinds]
+        if not all(image_pressure(wall, 0.0, 1.0) for wall in images):
+            raise ValueError("slopes of P are mirrored as images copy it, not as Own() has it: take Copied()")
+
     def finish(self, given: tuple[Any, float]) -> None:
         self.threads(_reconstruct, self.around.rows, self.more, self.records)
-
-
-@jit
-def sound(first, last, eos, rho, T, records):
-    for i in range(first, last):
-        records[i].c = sound_speed(eos, rho[i], energy(eos, rho[i], T[i]))
 
 
 @jit

@@ -4,7 +4,16 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from continuum.fluid import conductivity, energy, pressure, stress, temperature, viscosity
+from continuum.fluid import (
+    conductivity,
+    constant_viscosity,
+    energy,
+    pressure,
+    sound_speed,
+    stress,
+    temperature,
+    viscosity,
+)
 from continuum.jit import formula, jit
 from particles.lists import Listed, PairLists, unphysical
 from particles.pairs import sweep
@@ -142,6 +151,13 @@ class Direct(SmoothSums):
         return DirectFluxes(), self.records
 
 
+def check_along_pairs(law: Any) -> None:
+    """Refuse a viscosity that varies where `Direct` has all of the friction: ValueError."""
+    if not constant_viscosity(law):
+        raise ValueError("friction along pairs lacks a part of the stress where viscosity varies, as by "
+                         f"{law}: take ConstEta, or a transport with corrected gradients, as CRKSPH")
+
+
 @jit
 def _thermal(first, last, n, state, eos, static, g, y, rho, vx, vy, T, P, less):
     for i in range(first, last):
@@ -210,6 +226,12 @@ def _direct(first, last, law, x, y, rho, vx, vy, T, less, records):
         a.x, a.y, a.vx, a.vy, a.T = x[i], y[i], vx[i], vy[i], T[i]
         a.P_rho2, a.irho = less[i]/rho[i]**2, 1/rho[i]
         a.eta, a.k = viscosity(law, rho[i], T[i]), conductivity(law, rho[i], T[i])
+
+
+@jit
+def sound(first, last, eos, rho, T, records):
+    for i in range(first, last):
+        records[i].c = sound_speed(eos, rho[i], energy(eos, rho[i], T[i]))
 
 
 @jit

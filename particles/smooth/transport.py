@@ -8,9 +8,10 @@ Density is summed, V = m/rho. Particles move with v~ = v + d, and push with the 
 
 P0 = rho0 c0^2/gamma, the paper's, is of our gas the pressure at the mean state. `LessStatic` leaves out of P,
 with fraction 1, all of it, as the paper's P = c0^2 (rho - rho0) does; its work goes by gradients of v then,
-so that energy is not closed. tau, the paper's step, is 0.25 a/c of each particle, its limit of sound,
-whatever step is taken. Friction and heat are those of `Direct`, for Adami's harmonic mean. Each of a pair has
-half of the work of its forces. Walls of the paper extrapolate P by gravity; images copy it.
+so that energy is not closed. tau is half of the paper's step, as in its leap from v to v~ [Eq. 15], and the
+step its limit of sound, 0.25 a/c of each particle, whatever step is taken. Friction and heat are those of
+`Direct`, for Adami's harmonic mean. Each of a pair has half of the work of its forces. Walls of the paper
+extrapolate P by gravity; images copy it.
 
 As in the paper v div(rho d) is left out of A: rates are Galilean invariant only where A is none. There is no
 A of energy: heat is carried by v~; e d without the mass would heat by e div d, and e, unlike v, is not small.
@@ -22,11 +23,10 @@ import numpy as np
 from continuum.jit import jit
 from particles.pairs import pair_term, sweep
 from particles.smooth.led import Led
-from particles.smooth.meshless import sound
-from particles.smooth.sums import DirectState
+from particles.smooth.sums import DirectState, sound
 from particles.threads import Threads
 
-COURANT = 0.25      # of the paper's step
+COURANT = 0.25/2    # tau over a/c
 
 
 class Background(NamedTuple):

@@ -19,7 +19,7 @@ from typing import Any
 from continuum.fluid import conductivity, viscosity
 from continuum.jit import check_formulas
 from continuum.scene import RayleighBenard, Walls
-from studies.build import fixed, grid, moving, spam, words
+from studies.build import fixed, grid, moving, spam, stable, words
 from studies.build.cavity import cavity
 from studies.build.rapid import ShearLayer, ShockTube
 from studies.build.scenes import Sound, TaylorGreen, between_plates
@@ -61,7 +61,7 @@ def prefixed(family: str, variants: Mapping[str, Any], usual: str) -> dict[str, 
 
 FAMILIES = (prefixed("grid", grid.FORMS, "flux-form"),
             prefixed("spam", spam.VARIANTS | spam.TODAY, "printed"), fixed.SCHEMES, moving.CARRIAGES,
-            moving.STABLE, moving.MOTIONS, moving.DRIFT_MOTIONS)
+            stable.STABLE, moving.STABLE, moving.MOTIONS, moving.DRIFT_MOTIONS)
 #: name -> variant; tables have the family in another column
 METHODS = {name: variant for family in FAMILIES for name, variant in family.items()}
 #: the best known of each family

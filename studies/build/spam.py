@@ -12,6 +12,7 @@ from continuum.gas.solve import steady_on
 from continuum.scene import RayleighBenard, Torus
 from particles.limits import step_limit
 from particles.observe import PlateHeat, field_kinetic, heat_flow, particle_kinetic
+from particles.smooth.adiabatic import AdiabaticMfm
 from particles.smooth.corrected import AllCorrected, Corrected, Reversed, Symmetrised
 from particles.smooth.meshless import Crksph, Mfm
 from particles.smooth.riemann import LowDissipationSums
@@ -145,6 +146,7 @@ TODAY = {v.name: v._replace(weight=WendlandC2, walls=images_odd) for v in (
     Variant("corrected-half-step", transport=AllCorrected, step=OF_LIMIT/2),
     Variant("CRKSPH", transport=Crksph),
     Variant("MFM", transport=Mfm),
+    Variant("MFM-adiabatic", transport=AdiabaticMfm),
     Variant("riemann", transport=LowDissipationSums),
     Variant("delta-plus", transport=DeltaPlus),
     Variant("transport-velocity", transport=TransportVelocity, fraction=1.0, hydrostatic=0.0,
@@ -156,7 +158,8 @@ TODAY["delta-plus-own-pressure"] = TODAY["delta-plus"]._replace(name="delta-plus
                                                                 walls=images_odd_own)
 #: what a step that vanishes would leave of a frozen fluid
 STEPS = {name: PRINTED._replace(name=name, step=OF_LIMIT/part)
-         for name, part in (("printed-quarter-step", 4), ("printed-eighth-step", 8))}
+         for name, part in (("printed-quarter-step", 4), ("printed-eighth-step", 8),
+                            ("printed-sixteenth-step", 16))}
 JOINT = "-joint"
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from continuum.fluid import ConstEta, IdealGas
 from continuum.published import published
-from particles.integral.bodies import held
+from particles.integral.bodies import CLEAR, held, on_circle
 from particles.integral.edge_makers import renormalised
 from particles.integral.edges import Edges
 from particles.integral.points import Points, lattice, of_positions
@@ -29,9 +29,6 @@ OF_LIMIT = 0.9              # of the step to its stability limit: a steady flow 
 BOXES = 2.0                 # lengths of the box that images slide
 DIFFERENCE = 0.1            # of the speeds of neighbouring boxes
 SOUND = np.sqrt(2.0)        # its speed at rho = T = 1
-#: spacings between a surface and points off it: nearer ones would cut its edges or take short steps
-CLEAR = 0.6
-
 #: points, numbers of those that are the body, edges
 Cell = tuple[Points, np.ndarray, Edges]
 
@@ -67,13 +64,6 @@ def with_surface(counts: tuple[int, int], radius: float) -> tuple[Points, np.nda
     inside, outside = at.x[r < radius - CLEAR], at.x[r > radius + CLEAR]
     points = of_positions(np.concatenate([circle, inside, outside]), at.box)
     return points, np.arange(len(circle) + len(inside))
-
-
-def on_circle(radius: float) -> np.ndarray:
-    """Points (n, 2) about one apart on a circle."""
-    n = round(2*np.pi*radius)
-    angle = 2*np.pi*(np.arange(n) + 0.5)/n
-    return radius*np.stack([np.cos(angle), np.sin(angle)], axis=1)
 
 
 class Obstacle(NamedTuple):

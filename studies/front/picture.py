@@ -29,6 +29,8 @@ def picture(solution: Any, path: str | Path | None = None) -> Figure:
 
 def pictures(comparison: Any, path: str | Path | None = None) -> Figure:
     """Flows of the finest resolution above; each number against the cost below."""
+    if not comparison.solutions:
+        raise ValueError("every run diverged: there is nothing to draw; take more rows or another method")
     by_rows = sorted(comparison.solutions, key=lambda one: one.rows)
     finest = {one.method: one for one in by_rows}.values()
     names = [name for name in ("K", "Nu", "error") if name in comparison.table]
@@ -69,7 +71,8 @@ def mapped(axes: Axes, scene: Any, at: pd.DataFrame) -> None:
     x, y = (np.arange(-size/2 + 0.5/ARROWS, size/2, 1/ARROWS) for size in (scene.width/L, 1))
     X, Y = np.meshgrid(x, y)
     vx, vy = (LinearTriInterpolator(mesh, at[name])(X, Y) for name in ("vx", "vy"))
-    axes.quiver(X, Y, vx, vy, color="white", edgecolor="black", linewidth=0.3, pivot="mid", width=0.006)
+    if at[["vx", "vy"]].any(axis=None):      # arrows of a fluid at rest have no scale
+        axes.quiver(X, Y, vx, vy, color="white", edgecolor="black", linewidth=0.3, pivot="mid", width=0.006)
     axes.set(aspect="equal", xlabel="x/L", ylabel="y/L")
     axes.grid(False)
 

@@ -65,7 +65,7 @@ class Solution:
         return pd.DataFrame(dict(zip(columns, (*x.T, *v.T, *others))))
 
     def plot(self, path: str | Path | None = None) -> Any:
-        """The figure of temperature, velocities and the history; written to `path`, if given."""
+        """The figure of temperature, velocities and the history; as PNG at `path`, if given."""
         return picture(self, path)
 
     def save(self, path: str | Path) -> Path:

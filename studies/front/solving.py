@@ -7,7 +7,7 @@ from difflib import get_close_matches
 from functools import partial
 from inspect import signature
 from math import ceil
-from numbers import Real
+from numbers import Integral, Real
 from pathlib import Path
 from typing import Any
 
@@ -51,11 +51,18 @@ def solve(scene: Any, method: Any, *, rows: int | None = None, seed: int = 1, ti
     of them is neither. Divergence.
     """
     positive(**{name: given for name, given in (("time", time), ("dt", dt)) if given is not None})
+    if not isinstance(seed, Integral) or seed < 0:
+        raise ValueError(f"seed must be a whole number of 0 or more, got {seed!r}: 1 is usual")
     where, chosen = placed(scene, rows, **of_scene), named(method)
     if isinstance(method, str) and method in REFERENCES:
         parts = solved(method, where)
     else:
-        made = prepared(where, chosen, seed)
+        try:
+            made = prepared(where, chosen, seed)
+        except ValueError as error:     # points on sides take one that slides, but not into corners
+            corners = " = Sliding(" in str(error) and where.sides.axes == (False, False)
+            why = ", as it slides into corners: take"
+            raise ValueError(str(error).replace(": take", why, corners)) from None
         plan = planned(where, chosen, dt or made.dt, time, resume)
         warn_of_heat(where, plan.dt*plan.steps)
         parts = followed(where, made, plan, called(method), progress)
@@ -147,7 +154,10 @@ def followed(scene: Any, made: Ready, plan: Plan, name: str, progress: bool | No
     with tqdm(total=plan.steps, desc=name, unit="step", disable=not shown, leave=False) as bar:
         def tell(part: float) -> None:
             bar.update(round(part*plan.steps) - bar.n)
-        done = run(made.method, made.start, plan, tell)
+        try:
+            done = run(made.method, made.start, plan, tell)
+        except Divergence as error:     # no step is short enough for a flow that is not resolved
+            raise Divergence(error.step, f"{error}; or take more rows") from None
     history = pd.DataFrame({"t": np.array(done.times)/duration(scene)[1], **done.series})
     at = seen(made.method, done.by_id())
     return {"history": history, "at": at, "numbers": numbers(scene, history, at), "dt": plan.dt,
@@ -173,8 +183,9 @@ class Comparison:
         """The table, errors in units of the last digit, then what diverged."""
         rows = pd.DataFrame([row(one, {name: str(q) for name, q in one.numbers.items()})
                              for one in self.solutions])
+        table = rows.to_string(index=False, na_rep="", float_format="{:.2g}".format)
         diverged = [f"{name}: {why}" for name, why in self.diverged.items()]
-        return "\n".join([rows.to_string(index=False, na_rep="", float_format="{:.2g}".format), *diverged])
+        return "\n".join([table]*bool(self.solutions) + diverged)
 
 
 def row(one: Solution, numbers: dict[str, Any]) -> dict[str, Any]:

@@ -81,6 +81,8 @@ PROBED["alternating densities"] = variants(LATTICE, JITTERED, *STABLE, CARRIED, 
 TALL = ("Ra 1e5", "Ra 1e6", "Ra 1e7", "Ra 1e8", "Prandtl 0.01", "Prandtl 100", "high pressure")
 LENGTHS = (24, 36, 48, 72, 96, 144, 192)
 MORE_SEEDS = 16         # of the longest viscous tube of smooth particles, whose ringing is near its limit
+MORE_MOVING = 12        # the same of moving points, whose error is near its limit
+MORE_STARTS = 8         # of the search with moving points at the usual step, which scatters
 #: scale, k a, number of seeds
 RIPPLES = ((1.0, 0.25, 3), (1.0, 0.75, 3), (2.0, 0.25, 8), (4.0, 0.25, 7))
 #: case -> rows of grids between plates; more where three left undecided what is a tenth off
@@ -112,6 +114,11 @@ def paper() -> Iterator[Case]:
     yield from smooth_tubes(LENGTHS, (0.0, 0.5), range(1, 4))
     yield from smooth_tubes(LENGTHS[-1:], (0.5,), range(4, MORE_SEEDS + 1))
     yield from method_tubes(LENGTHS[:5], 3)
+    attempt, moving = IN_LAYERS[MOVING]
+    for seed in range(4, MORE_MOVING + 1):
+        yield MethodTube(method=MOVING, tube=tubes.points, variant=moving, eta=max(ETAS), L=96, seed=seed)
+    for seed in range(4, MORE_STARTS + 1):
+        yield HighRa(method=MOVING, attempt=attempt, variant=moving, seed=seed)
     for method, eta, L in product(STABLE, ETAS, (48, 96)):      # whose steps are as short as they need anyway
         yield MethodTube(method=method, tube=tubes.points, variant=variant(method), eta=eta, L=L)
     for scale, steep, last in RIPPLES:
@@ -143,7 +150,7 @@ def method_tubes(lengths: Sequence[int], seeds: int) -> Iterator[Case]:
 
 
 def highest() -> Iterator[Case]:
-    """Five starts each, three of the moving points, which cost most."""
+    """Five starts each, three of the moving points, which cost most; `paper` has more."""
     yield FineGrid()
     for (method, (attempt, chosen)), step in product(IN_LAYERS.items(), high_ra.STEPS):
         for seed in range(1, 4 if method == MOVING else 6):

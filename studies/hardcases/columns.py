@@ -16,28 +16,14 @@ from continuum.exact.blast import blast
 from continuum.exact.shear import growing_wave, layer_with_wave
 from continuum.fluid import ConstEta, IdealGas
 from particles.fields import Fields, kinetic_energy
-from studies.build.scenes import SOUND, Scene, Start, TaylorGreen
+from studies.build.scenes import SOUND, Start, TaylorGreen
+from studies.build.stable import BODIES
 from studies.hardcases.extremes import BEGIN, SPEED, U
-from studies.hardcases.robust import EDGES, PROBLEMS, STABLE, Strip
+from studies.hardcases.impacts import Bow, Frictionless, Ripple, radii
+from studies.hardcases.robust import BLENDED, EDGES, PROBLEMS, STABLE, Strip
 from studies.hardcases.tubes import EOS, GAMMA
 
 COLD = 1e-6         # of what is as good as no temperature
-
-
-def radii(at: Fields) -> np.ndarray:
-    """(n,) from the middle of the box."""
-    return np.hypot(*at.x.T)
-
-
-@dataclass(frozen=True, kw_only=True)
-class Frictionless(Scene):
-    """A square of L rows of a gas without viscosity."""
-    L: int
-    law: ConstEta = ConstEta(0.0, 0.0)  # noqa: RUF009 (immutable)
-
-    @property
-    def width(self) -> int:  # type: ignore[override]
-        return self.L
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -145,14 +131,15 @@ class KelvinHelmholtz(Frictionless):
 
 @dataclass(frozen=True, kw_only=True)
 class Turns(TaylorGreen):
-    """A vortex without viscosity for a hundred turns, which keeps its K."""
+    """A vortex without viscosity, which keeps its K."""
+    turns: float = 100.0
     mach: float = SPEED/SOUND
     law: ConstEta = ConstEta(0.0, 0.0)  # type: ignore[misc]  # noqa: RUF009 (immutable)
     fastest: ClassVar[float] = 1.1*SOUND
 
     @property
     def time(self) -> float:
-        return 100*self.L/self.speed
+        return self.turns*self.L/self.speed
 
     def seen(self, first: Fields, at: Fields) -> dict[str, float]:
         return {"measured": kinetic_energy(at)/kinetic_energy(first)}
@@ -180,7 +167,8 @@ OFF, LEFT = "spacings off", "left/start"
 WAVES = OFF, 0.0, 4.0, ("a wave over w spacings costs w/4 of its jump: a shock over 3, a contact over 8, "
                         "both ends of a fan over 2 cost 4 if each had the whole range")
 FRONT = OFF, 0.0, 1.0, "a shock is two spacings thin at best: half of that to either side"
-FLOW = LEFT, 1.0, 0.1, "a tenth, which separates right from wrong on all of the map"
+A_TENTH = "a tenth, which separates right from wrong on all of the map"
+FLOW = LEFT, 1.0, 0.1, A_TENTH
 #: who turns a hundred times
 ONCE = tuple(dict.fromkeys(("grid", *EDGES, "moving-delaunay", *STABLE)))
 COLUMNS = {name: Column(Strip(problem=problem, cells=50), (50, 100), *WAVES)
@@ -190,4 +178,8 @@ COLUMNS = {name: Column(Strip(problem=problem, cells=50), (50, 100), *WAVES)
     "Gresho": Column(Gresho(L=24), (24, 48), *FLOW),
     "Kelvin-Helmholtz": Column(KelvinHelmholtz(L=16), (16, 32), *FLOW),
     "100 turns": Column(Turns(L=16), (16,), *FLOW, ONCE),
+    "800 turns": Column(Turns(L=16, turns=800.0), (16,), *FLOW, STABLE[:2]),
+    "Mach 3 body": Column(Bow(L=48), (48, 96), "P/exact", 1.0, 0.1, A_TENTH, tuple(BODIES)),
+    "shocked ripple": Column(Ripple(L=200), (200, 400), "growth/theory", 1.0, 0.1, A_TENTH,
+                             (EDGES[0], STABLE[0], BLENDED)),
 }

@@ -27,6 +27,9 @@ from studies.kit.case import Case, Outcome, Report
 EDGES = ("fixed-lattice", "fixed-jittered-delaunay", "moving-delaunay")
 PAIRS = {name: f"{name}-entropy-stable" for name in EDGES}
 STABLE = tuple(PAIRS.values())
+BLENDED = f"{STABLE[0]}-blended"
+#: points on plates, or on a body
+HELD = "fixed-jittered-plates-entropy-stable"
 SAMPLES = 30
 #: scene, numbers of rows, which of them; convection of fixed irregular points would take a quarter of an hour
 SMOOTH = (("rayleigh-benard", (48,), EDGES[:1]), ("rayleigh-benard", (25,), EDGES[2:]),
@@ -163,7 +166,9 @@ class SmoothFlow(Case):
 
 
 def cases() -> Iterator[Case]:
-    """Pairs in smooth flows."""
+    """Pairs in smooth flows; both pressures."""
     for scene, rows, names in SMOOTH:
         for count, name in product(rows, names):
             yield from (SmoothFlow(method=method, scene=scene, rows=count) for method in (name, PAIRS[name]))
+    for count, name in product((16, 24), (STABLE[0], BLENDED)):
+        yield SmoothFlow(method=name, scene="rayleigh-benard", rows=count)

@@ -14,7 +14,7 @@ from studies.build.scenes import Start
 from studies.build.setting import Ready
 from studies.build.spam import Variant
 from studies.hardcases.columns import COLUMNS
-from studies.hardcases.robust import ROOMY, SAMPLES, STABLE, Strip
+from studies.hardcases.robust import BLENDED, HELD, ROOMY, SAMPLES, STABLE, Strip
 from studies.hardcases.survival import followed
 from studies.kit.case import Case, Outcome, Report
 
@@ -26,8 +26,10 @@ SEEDS, STEPS = (1, 2, 3), (1.0, 0.5)
 #: of the flux at SAMPLES instants; the last two are counts so far
 WATCHED = {"switched": switched, "halved": lambda sums, state: sums.refused,
            "limited": lambda sums, state: sums.limited}
-#: method, column -> one more size
-LARGER = {**{(name, "Sod"): 200 for name in STABLE}, (STABLE[0], "Mach 10"): 400}
+#: method, column -> more sizes
+LARGER = {**{(name, "Sod"): (200,) for name in STABLE}, (STABLE[0], "Sod"): (200, 400),
+          (STABLE[0], "Mach 10"): (400,), (HELD, "Mach 3 body"): (192,),
+          **{(name, "shocked ripple"): (800,) for name in (STABLE[0], BLENDED)}}
 
 
 @dataclass(frozen=True)
@@ -50,8 +52,8 @@ class Swift:
 def prepared(method: str, scene: Any, seed: int, step: float) -> Ready:
     """With the usual step of the fastest flow to come; `step` : over it."""
     x, _ = of_one_mass(scene, seed) if isinstance(variant(method), Variant) else (None, None)
-    places = {} if x is None else {"x": x}
-    made, swift = ready(scene, method, seed, **places), ready(Swift(scene), method, seed, **places)
+    places, takes = {} if x is None else {"x": x}, getattr(scene, "takes", {}).get(method, method)
+    made, swift = (ready(one, takes, seed, **places) for one in (scene, Swift(scene)))
     flat = made.start.reshape(len(made.start), -1)      # of a block of the grid
     return Ready(made.method, flat, step*min(made.dt, swift.dt))
 
@@ -85,7 +87,7 @@ class Trial(Case):
 
         def look(at: Fields) -> None:
             seen.append(at._make(map(np.copy, at)))     # type: ignore[call-arg, arg-type]
-        watch: dict[str, Any] = WATCHED if self.method in STABLE else {}
+        watch: dict[str, Any] = WATCHED if "entropy-stable" in self.method else {}
         samples = SAMPLES if watch else 1
         course = followed(made, scene.time, samples, look, report, watch)
         row["reached"] = course.reached
@@ -102,7 +104,7 @@ def cases() -> Iterator[Case]:
             roomy = method == STABLE[-1] and isinstance(column.scene, Strip)
             scene = replace(column.scene, L=ROOMY) if roomy else column.scene
             common: dict[str, Any] = {"case": case, "scene": scene, "method": method}
-            small, *large = *column.sizes, *([LARGER[method, case]] if (method, case) in LARGER else [])
+            small, *large = *column.sizes, *LARGER.get((method, case), ())
             chance = "lattice" not in method and method != "grid"
             for seed in SEEDS[:3 if chance and not column.only else 1]:
                 yield Trial(**common, rows=small, seed=seed)

@@ -10,14 +10,15 @@ from studies.build import variant
 from studies.judge.ladder import climb, verdicts
 from studies.judge.page import write_page
 from studies.kit.store import RESULTS
-from studies.kit.study import parsed
+from studies.kit.study import parsed, say
 
 OWN = RESULTS/"own"         # not committed
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """The command line; 0 if there is a page, 1 if there is no such method, 130 if stopped."""
-    parser = argparse.ArgumentParser(prog="python -m studies.judge", description=__doc__)
+    """The command line; 0 if a rung is passed, 1 if none is or there is no such method, 130 if stopped."""
+    parser = argparse.ArgumentParser(prog="python -m studies.judge", description=__doc__,
+                                     epilog=f"Ends with {(main.__doc__ or '').partition('; ')[2]}")
     parser.add_argument("method", help="module:Class, a class that takes a scene; or a name such as grid")
     parser.add_argument("--rows", type=int, nargs="+", default=[16, 25, 35],
                         help="points or cells over the height; a small ladder has 8 12")
@@ -27,18 +28,18 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         method = found(words.method)
     except (ValueError, ImportError, AttributeError) as error:
-        print(error, file=sys.stderr)
-        return 1
+        return say(str(error), 1)
     name = words.method.rpartition(":")[2]
     try:
         takes = climb(method, sorted(words.rows), words.minutes)
+        told = verdicts(takes)
+        print(*(f"{rung.name}: {verdict.words}" for rung, verdict in told), sep="\n")
+        print(write_page(name, takes, words.out))
     except KeyboardInterrupt:
-        print("stopped: there is no page", file=sys.stderr)
-        return 130
-    for rung, verdict in verdicts(takes):
-        print(f"{rung.name}: {verdict.words}")
-    print(write_page(name, takes, words.out))
-    return 0
+        return say("stopped: there is no page", 130)
+    except OSError as error:
+        return say(str(error), 1)
+    return 0 if any(verdict.good for _, verdict in told) else 1
 
 
 def found(words: str) -> Any:

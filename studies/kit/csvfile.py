@@ -7,7 +7,7 @@ import re
 import subprocess
 import zlib
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from datetime import UTC, datetime
 from functools import cache
 from importlib.metadata import version
@@ -113,16 +113,20 @@ def is_text(column: pd.Series, path: Path) -> bool:
 
 def write_atomic(path: Path, content: str | bytes) -> None:
     """The whole content or nothing: an interrupt or a full disk leaves the old file as it was."""
-    path.parent.mkdir(parents=True, exist_ok=True)
     part = path.with_name(f".{path.name}.{os.getpid()}")
     try:
+        path.parent.mkdir(parents=True, exist_ok=True)
         with part.open("wb") as file:
             file.write(content.encode() if isinstance(content, str) else content)
             file.flush()
             os.fsync(file.fileno())     # else the name may reach the disk before what it names
         os.replace(part, path)
+    except OSError as error:
+        raise OSError(f"{path} cannot be written ({error.strerror}) and is as it was: make room there, or "
+                      "choose another folder") from error
     finally:
-        part.unlink(missing_ok=True)
+        with suppress(OSError):
+            part.unlink(missing_ok=True)
 
 
 @cache

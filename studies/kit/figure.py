@@ -116,7 +116,10 @@ def below(axes: Axes, **more: Any) -> None:
 
 
 def save(page: Figure, path: Path) -> None:
-    """Write a PNG, all or nothing; the same figure gives the same bytes."""
+    """Write a PNG, all or nothing; the same figure gives the same bytes. Raises ValueError: it is no PNG."""
+    if path.suffix != ".png":
+        raise ValueError(f"{path.name} ends in {path.suffix or 'nothing'}: give a name that ends in .png, or "
+                         f"draw without a name and .savefig({path.name!r}) the figure")
     write_atomic(path, compact(page))
 
 

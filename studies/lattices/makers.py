@@ -23,7 +23,7 @@ from studies.kit.table import Row, Rows, Tables, groups
 from studies.lattices import loss
 from studies.lattices.stirred import ETA, Driven, Push, Stirred
 
-MAKERS = ("sph", "riemann", "sumB", "RKGC", "bonet-lok", "corrected", "CRKSPH", "MFM")
+MAKERS = ("sph", "riemann", "sumB", "RKGC", "bonet-lok", "corrected", "CRKSPH", "MFM", "MFM-adiabatic")
 RA, FORCES = 10_000.0, (0.1, 0.2, 0.4)
 
 

@@ -19,6 +19,7 @@ from studies.operators.equations import Arithmetic, EquationErrors, of_dilation,
 from studies.operators.makers import MAKERS as TODAY
 from studies.operators.makers import SETS, MakerErrors
 from studies.operators.transport import BETWEEN, Decay, Drive, ShearFlow, of_edges
+from studies.operators.wall_heat import FACES, SMOOTH, WallHeat
 from studies.operators.weights import Continuum, ExponentialWave, LatticeSums, of_weights
 
 KINDS = (*WEIGHTS.values(), Exponential, Gaussian)
@@ -50,7 +51,7 @@ MANY = tuple(range(1, 13))      # sets of points between rows of points: their e
 def cases(size: str) -> list[Case]:
     """`quick` has fewer sizes, seeds and kinds of points."""
     quick = size == "quick"
-    parts = (weights, equations, points, waves, shear, layers, entropy, makers)
+    parts = (weights, equations, points, waves, shear, layers, entropy, makers, wall_heat)
     return [case for part in parts for case in part(quick)]
 
 
@@ -141,3 +142,12 @@ def makers(quick: bool) -> Iterator[Case]:
     for (name, (make, kind)), (points, disorder), n in product(TODAY.items(), SETS.items(), cells):
         for seed in seeds[:1] if points in ("lattice", "hexagonal", "relaxed") else seeds:
             yield MakerErrors(maker=name, make=make, kind=kind, disorder=disorder, cells=n, seed=seed)
+
+
+def wall_heat(quick: bool) -> Iterator[Case]:
+    """The same, between plates; closed faces of 64 rows cost minutes each."""
+    sizes, seeds = ((8, 12, 16), (1,)) if quick else ((16, 32, 64), SEEDS)
+    for maker, (points, disorder), rows in product((*SMOOTH, *FACES), SETS.items(), sizes):
+        rows = rows if maker != "closed faces" or quick else 8 + rows//4
+        for seed in seeds[:1] if points in ("lattice", "hexagonal", "relaxed") else seeds:
+            yield WallHeat(maker=maker, disorder=disorder, rows=rows, seed=seed)

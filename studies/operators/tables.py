@@ -88,10 +88,17 @@ MAKERS = Table.of("makers", "maker points cells seed",
 MAKER_ORDERS = Table.of("maker_orders", "maker points quantity", "order order_err finest finest_err",
                         about="How these errors fall with the spacing; their mean at the finest.",
                         means={"finest": ("mean over seeds at the finest spacing", "")})
+WALL_HEAT = Table.of("wall_heat", "maker points cells seed", "wall",
+                     about="Heat through plates with images, from a profile with Nu = 2, range 3 a.",
+                     means={"cells": ("rows between the plates", ""),
+                            "wall": ("rms over both plates of Nu over the exact one, less 1", "")})
+WALL_ORDERS = Table.of("wall_orders", "maker points", "order order_err finest finest_err",
+                       about="How these errors fall with the spacing; their mean at the finest.",
+                       means={"finest": ("mean over seeds at the finest spacing", "")})
 
 ALL = (CONTINUUM, LATTICE, EXPONENTIAL, NUMBERS, EQUATIONS, ORDERS, FRICTION, ONE_KERNEL, GROWTH,
        GROWTH_MEANS, EULER, NESTED_GROWTH, WAVES, COEFFICIENTS, TRANSPORT_ORDERS, SHEAR, SHEAR_MEANS,
-       SHEAR_ORDERS, ENTROPY, MAKERS, MAKER_ORDERS)
+       SHEAR_ORDERS, ENTROPY, MAKERS, MAKER_ORDERS, WALL_HEAT, WALL_ORDERS)
 
 # --- what follows from them ---------------------------------------------------------------------------------
 
@@ -190,9 +197,15 @@ def shear_orders(rows: pd.DataFrame) -> Iterator[Row]:
 ERRORS = ["closure", "linear", "deviator", "divergence", "gradient", "laplacian"]
 
 
-def maker_orders(rows: pd.DataFrame) -> Iterator[Row]:
+def wall_orders(rows: pd.DataFrame) -> Iterator[Row]:
+    """The same of heat through plates."""
+    for row in maker_orders(rows, ["wall"]):
+        yield {name: value for name, value in row.items() if name != "quantity"}
+
+
+def maker_orders(rows: pd.DataFrame, quantities: list[str] = ERRORS) -> Iterator[Row]:
     """Over the cells, all runs in one fit; round-off has no order."""
-    errors = rows.melt(["maker", "points", "cells"], ERRORS, "quantity", "error")
+    errors = rows.melt(["maker", "points", "cells"], quantities, "quantity", "error")
     for key, group in groups(errors, MAKER_ORDERS, "cells"):
         finest = combine([(error, 0.0) for error in group["error"][group["cells"] == group["cells"].max()]])
         told = group["cells"].nunique() >= LEAST and (group["error"] > ROUND_OFF).all()
@@ -204,4 +217,4 @@ def maker_orders(rows: pd.DataFrame) -> Iterator[Row]:
 DERIVED = {"orders": ("equations", orders), "growth_means": ("growth", growth_means),
            "coefficients": ("waves", coefficients), "transport_orders": ("waves", transport_orders),
            "shear_means": ("shear", shear_means), "shear_orders": ("shear", shear_orders),
-           "maker_orders": ("makers", maker_orders)}
+           "maker_orders": ("makers", maker_orders), "wall_orders": ("wall_heat", wall_orders)}

@@ -190,6 +190,7 @@ def more() -> Iterator[Case]:
     for ra in (1e4, 3e3):
         yield from spam(ra, 16, rest, keep="history")
     yield from spam(1e4, 16, variant=VARIANTS["printed-half-step"], **VDW)
+    yield from spam(3e3, 16, rest, variant=STEPS["printed-eighth-step"], **DENSE)
     for name in ("walls-own-pressure", "walls-odd"):
         yield from spam(5e3, 50, variant=VARIANTS[name])
 
@@ -216,7 +217,7 @@ SHORT = ("riemann", "delta-plus", "delta-plus-own-pressure", "transport-velocity
 
 def makers() -> Iterator[Case]:
     """Today's other areas between particles; the first sizes first."""
-    for rows, name in product((25, 35, 50, 70), ("CRKSPH", "MFM", *SHORT)):
+    for rows, name in product((25, 35, 50, 70), ("CRKSPH", "MFM", "MFM-adiabatic", *SHORT)):
         if rows < 50 or name not in SHORT:
             for run in spam(1e4, rows, variant=TODAY[name], mean_from=60.0):
                 yield MakerRun(**vars(run))

@@ -15,7 +15,7 @@ from studies.rb.tables import POINT, SCENE, STILL
 
 Row = dict[Any, Any]
 GRIDS = ("compressible", "boussinesq", "pypde-compressible")
-CORRECTED = ("sumB", "corrected", "CRKSPH", "MFM")      # smooth particles that may have a limit
+CORRECTED = ("sumB", "corrected", "CRKSPH", "MFM", "MFM-adiabatic")     # that may have a limit
 SERIES = [name for name in POINT if name != "resolution"]
 ENERGIES = ["ke", "ke_field", "ke_mean", "nu"]
 HALF = "-half-step"

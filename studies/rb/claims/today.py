@@ -70,6 +70,8 @@ CLAIMS = (
           statement="the error of K of CRKSPH falls as the square of the spacing: order, 25 to 50 rows"),
     near("MFM", 35, source="Hopkins 2015",
          after="runs of 25 rows had been seen, whose images had a speed of sound of their own"),
+    near("MFM-adiabatic", 35, source="Hopkins 2015",
+         after="40 and 60 free-fall times of one run of 25 and of 35 rows had been seen"),
     Claim(id="own-today-riemann", source="Zhang, Hu & Adams 2017", value=abs(error("riemann", 35)),
           at_most=0.1, because="a tenth, as of classic particles: dissipation is called low",
           statement="classic particles with a Riemann problem of low dissipation are near the gas: "

@@ -1,0 +1,182 @@
+"""Exchange over edges that are evaluated once each, many at a time: what one end gains the other loses.
+
+For terms without a branch, so that a loop over edges becomes vector instructions; dissipation, which has one,
+follows at the few edges that a first look finds astir. Blocks of edges are the same however many threads
+there are, and points add up what their edges bring in the order of their rows: so are results.
+"""
+from typing import NamedTuple
+
+import numpy as np
+
+from continuum.jit import formula, jit, jit_apart, jit_records
+from particles.integral.entropy_fluxes import Dissipation, Logarithmic, astir, brought, jumps
+from particles.integral.exchange import Conduction, Friction, Listing
+from particles.integral.transposed_stress import Mending
+from particles.neighbours import u32, u64
+from particles.pairs import Face, Faces, rate, sweep
+from particles.threads import Threads
+
+BLOCK = u64(64)
+FEW = 12        # of the edges of a block: what is dissipated by more is computed of all
+#: terms of transport that give one end what they take from the other
+ALIKE = Friction, Conduction, Mending
+Sent = np.dtype([(name, "f8") for name in ("m", "px", "py", "e")])
+
+
+class Once(NamedTuple):
+    """Edges from points i to `near`, as `Faces` have them at their row of i; and of each entry of rows which
+    edge it is, and whether it is its beginning (1) or its end (-1). Behind the last edge some have no area.
+    """
+    i: np.ndarray
+    near: np.ndarray
+    sx: np.ndarray
+    sy: np.ndarray
+    k: np.ndarray
+    dx: np.ndarray
+    dy: np.ndarray
+    edge: np.ndarray
+    sign: np.ndarray
+
+
+@formula
+def edge_at(once, h):
+    return Face(once.sx[h], once.sy[h], once.k[h], once.dx[h], once.dy[h])
+
+
+@formula
+def count(edges, stirred):
+    number = 0
+    for h in edges:
+        number += stirred[h]
+    return number
+
+
+def empty_once(entries: int) -> Once:
+    """Room for edges of rows that have so many entries."""
+    size = -(-entries//int(BLOCK))*int(BLOCK)
+    (i, near), (sx, sy, k, dx, dy) = np.zeros((2, size), u32), np.zeros((5, size))
+    return Once(i, near, sx, sy, k, dx, dy, np.zeros(entries, u32), np.zeros(entries))
+
+
+@jit
+def fill_once(n, edges, once):
+    """Find the edges of n rows: their number. An edge whose way back is in no row is one of its own."""
+    count = u64(0)
+    for i in range(u64(n)):
+        for e in range(edges.first[i], edges.first[i] + edges.taken[i]):
+            j = edges.near[e]
+            back = way_back(i, e, edges) if j < i else u64(e)
+            if back != e:
+                once.edge[e], once.sign[e] = once.edge[back], -1.0
+                continue
+            once.i[count], once.near[count], once.edge[e], once.sign[e] = i, j, count, 1.0
+            once.sx[count], once.sy[count], once.k[count] = edges.sx[e], edges.sy[e], edges.k[e]
+            once.dx[count], once.dy[count] = edges.dx[e], edges.dy[e]
+            count += u64(1)
+    once.sx[count:], once.sy[count:] = 0.0, 0.0
+    return count
+
+
+@jit
+def way_back(i, e, edges):
+    """The entry of the same edge in its other end's row, which in a narrow box has more of them to i; e for
+    none."""
+    j, sx, sy = edges.near[e], edges.sx[e], edges.sy[e]
+    found, least = u64(e), 1e-6*(abs(sx) + abs(sy)) + 1e-300
+    for back in range(edges.first[j], edges.first[j] + edges.taken[j]):
+        if edges.near[back] == i:
+            off = abs(edges.sx[back] + sx) + abs(edges.sy[back] + sy)
+            if off < least:
+                found, least = back, off
+    return found
+
+
+@jit_apart
+def _send(first, last, terms, own, points, once, stirred, sent):
+    """What terms bring along edges, less the pressure of one end and of the other in equal parts; which edges
+    are astir."""
+    for h in range(u64(first)*BLOCK, u64(last)*BLOCK):
+        a, b, ab, q = points[once.i[h]], points[once.near[h]], edge_at(once, h), sent[h]
+        m, px, py, e = rate(terms, a, b, ab)
+        less = own*(b.P + b.hydro - a.P)
+        q.m, q.px, q.py, q.e = m, px + less*ab.sx, py + less*ab.sy, e
+        stirred[h] = astir(a, b, ab, *jumps(a, b, ab))
+
+
+@jit
+def _stir_few(first, last, term, points, once, stirred, sent):
+    """Add what edges astir dissipate, one by one, in blocks with few of them."""
+    for block in range(u64(first), u64(last)):
+        edges = range(block*BLOCK, block*BLOCK + BLOCK)
+        if 0 < count(edges, stirred) <= FEW:
+            for h in edges:
+                if stirred[h]:
+                    q = sent[h]
+                    m, px, py, e = rate(term, points[once.i[h]], points[once.near[h]], edge_at(once, h))
+                    q.m, q.px, q.py, q.e = q.m + m, q.px + px, q.py + py, q.e + e
+
+
+@jit_apart
+def _stir_all(begin, end, term, points, once, stirred, sent):
+    for h in range(u64(begin), u64(end)):
+        a, b, ab, q = points[once.i[h]], points[once.near[h]], edge_at(once, h), sent[h]
+        m, px, py, e = brought(term.eos, a, b, ab, *jumps(a, b, ab))
+        here = 1.0*stirred[h]       # a branch would end the vector instructions
+        q.m, q.px, q.py, q.e = q.m + here*m, q.px + here*px, q.py + here*py, q.e + here*e
+
+
+@jit
+def _stir_many(first, last, term, points, once, stirred, sent):
+    """The same in other blocks, of all edges."""
+    for block in range(u64(first), u64(last)):
+        begin = block*BLOCK
+        if count(range(begin, begin + BLOCK), stirred) > FEW:
+            _stir_all(begin, begin + BLOCK, term, points, once, stirred, sent)
+
+
+@jit_records
+def _receive(first, last, own, slopes, edges, once, sent, total):
+    """Add to points what their edges bring, and what their own pressure leaves of others'."""
+    for i in range(u64(first), u64(last)):
+        m, px, py, e = total[i, 0], total[i, 1], total[i, 2], total[i, 3]
+        for k in range(edges.first[i], edges.first[i] + edges.taken[i]):
+            q, sign = sent[once.edge[k]], once.sign[k]
+            m, px, py, e = m + sign*q.m, px + sign*q.px, py + sign*q.py, e + sign*q.e
+        total[i, 0], total[i, 3] = m, e
+        total[i, 1], total[i, 2] = px - own*slopes[i, 3], py - own*slopes[i, 7]
+
+
+class Sending:
+    """Listed terms, each edge once; those of transport that are not `ALIKE` row by row."""
+
+    def __init__(self, flow: tuple, transport: tuple, n: int, threads: Threads):
+        self.n, self.threads, self.total = n, threads, np.zeros((n, 4))
+        self.rough = tuple(term for term in flow if isinstance(term, Dissipation))
+        carried = tuple(term for term in flow if not isinstance(term, Dissipation))
+        # a pressure leaves out a row's own
+        self.own = float(any(not isinstance(term, Logarithmic) for term in carried))
+        alike = tuple(term for term in transport if isinstance(term, ALIKE))
+        self.terms = Listing((*carried, *alike) or (Friction(0.0),))
+        self.others = tuple(term for term in transport if not isinstance(term, ALIKE))
+        self.once, self.sent = empty_once(0), np.zeros(0, Sent)
+
+    def follow(self, edges: Faces) -> None:
+        """Take these edges."""
+        if len(edges.near) != len(self.once.edge):
+            self.once = empty_once(len(edges.near))
+            self.stirred, self.sent = np.zeros(len(self.once.i), bool), np.zeros(len(self.once.i), Sent)
+        self.edges, count = edges, fill_once(self.n, edges, self.once)
+        self.blocks = -(-int(count)//int(BLOCK))
+
+    def sum(self, points: np.ndarray, slopes: np.ndarray) -> np.ndarray:
+        """What points gain (n, 4), which the next sum overwrites. slopes : of `positive.Slopes`."""
+        threads, once, sent, total = self.threads, self.once, self.sent, self.total
+        if self.others:
+            threads(sweep, self.n, Listing(self.others), points, self.edges, total)
+        else:
+            total.fill(0)
+        threads(_send, self.blocks, self.terms, self.own, points, once, self.stirred, sent)
+        for way in (_stir_few, _stir_many) if self.rough else ():
+            threads(way, self.blocks, self.rough[0], points, once, self.stirred, sent)
+        threads(_receive, self.n, self.own, slopes, self.edges, once, sent, total)
+        return total

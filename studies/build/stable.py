@@ -1,0 +1,77 @@
+"""Fixed points with a flux that survives where others hold them: on plates, on a body; a blended pressure."""
+from dataclasses import fields as fields_of
+from dataclasses import replace
+from typing import Any, NamedTuple
+
+from continuum.scene import Torus
+from particles.integral.bodies import held, with_disc
+from particles.integral.entropy_fluxes import BlendedPressure, Dissipation, Logarithmic
+from particles.integral.entropy_stable import StableLayer, StableStream
+from particles.integral.layer import Layer
+from particles.integral.points import of_positions
+from particles.integral.stream import Stream
+from particles.integral.triangulation import around, delaunay
+from studies.build.fixed import OF_LIMIT, Scheme
+from studies.build.setting import CannotTake, Ready, check_spacings, shifted, stepped
+
+#: kinds with the flux
+WITH_FLUX: dict[type, type] = {Stream: StableStream, Layer: StableLayer}
+
+
+def with_flux(made: Ready) -> Ready:
+    """The same points, edges and start with the flux."""
+    method = made.method
+    given = {one.name: getattr(method, one.name) for one in fields_of(method)}
+    return stepped(WITH_FLUX[type(method)](**given), made.start, OF_LIMIT)
+
+
+class StablePlates(Scheme):
+    """Rows of points on the plates."""
+
+    def ready(self, scene: Any, seed: int = 1, fields: tuple | None = None) -> Ready:
+        return with_flux(super().ready(scene, seed, fields))
+
+
+class Blended(Scheme):
+    """The pressure that keeps contacts and is RR98's elsewhere."""
+
+    def ready(self, scene: Any, seed: int = 1, fields: tuple | None = None) -> Ready:
+        made, eos = super().ready(scene, seed, fields), scene.eos
+        terms = Logarithmic(eos), BlendedPressure(eos), Dissipation(eos)
+        return made._replace(method=replace(made.method, flow=terms))
+
+
+class Around(NamedTuple):
+    """Jittered points around a disc of radius `scene.disc` without heat, in a periodic box: triangles end at
+    points on its edge."""
+    name: str
+    flux: bool = False
+    size: float = 0.3
+
+    def refuses(self, scene: Any) -> str:
+        """Which part of a scene this cannot take; empty for none."""
+        if not isinstance(scene.sides, Torus):
+            return f"sides = {scene.sides}"
+        return "" if getattr(scene, "disc", 0) > 0 else "no disc"
+
+    def ready(self, scene: Any, seed: int = 1, fields: tuple | None = None) -> Ready:
+        if part := self.refuses(scene):
+            raise CannotTake(part)
+        check_spacings(scene)
+        box = scene.width, scene.L
+        x, edge = with_disc(shifted(*box, self.size, seed), scene.disc)
+        method = Stream(x=x, edges=around(of_positions(x, box), edge), eos=scene.eos, law=scene.law,
+                        held=held(edge), solid=False)
+        made = stepped(method, method.state(*(fields or scene.fields(x))), OF_LIMIT)
+        return with_flux(made) if self.flux else made
+
+
+STABLE = {one.name: one for one in (
+    Blended("fixed-lattice-entropy-stable-blended", kind=StableLayer),
+    StablePlates("fixed-jittered-plates-entropy-stable", delaunay, size=0.3, held=True),
+)}
+#: those with points on plates, where a scene has a disc in place of plates
+BODIES = {one.name: one for one in (
+    Around("fixed-jittered-plates"),
+    Around("fixed-jittered-plates-entropy-stable", flux=True),
+)}
