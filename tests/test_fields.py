@@ -21,7 +21,7 @@ from particles.integral.dih import Dih
 from particles.integral.drifts import DRIFTS
 from particles.integral.edge_makers import renormalised
 from particles.integral.edges import between_plates
-from particles.integral.entropy_stable import StableLayer
+from particles.integral.entropy_stable import StableLayer, StableStream
 from particles.integral.layer import Driven, Layer
 from particles.integral.moving_delaunay import MovingDelaunay
 from particles.integral.moving_stable import StableDelaunay
@@ -54,6 +54,8 @@ FIXED = {"dih": Dih(edges=EDGES, **FLUID), "layer": Layer(**INSIDE),
          "stable": StableLayer(**{**INSIDE, "eos": IdealGas()}),
          "thermal": Thermal(edges=EDGES, k=1e-3, seed=1, **FLUID),
          "stream": Stream(x=SQUARE.x, edges=EDGES, held=held(np.array([0])), **FLUID),
+         "stable stream": StableStream(x=SQUARE.x, edges=EDGES, held=held(np.array([0])),
+                                       **{**FLUID, "eos": IdealGas()}),
          "sheared": Sheared(counts=BOX, weight=Lucy.of(h=2.0), rate=0.1, **FLUID), "driven": Driven(**INSIDE),
          "moving-delaunay": MovingDelaunay(**CARRIED, **FLUID),
          "moving-stable": StableDelaunay(**CARRIED, **{**FLUID, "eos": IdealGas()})}

@@ -155,10 +155,11 @@ def smooth() -> Iterator[str]:
            f"{percent('own-today-corrected-limit')} % in the limit")
     yield f"of order {of('own-today-corrected-order')}"
     others = {name: all_of(of_rows(name, rows)) for name, rows in (
-        ("CRKSPH", (25, 35, 50)), ("MFM", (25, 35)), ("riemann", (35,)), ("delta-plus", (35,)),
-        ("transport-velocity-whole", (25,)))}
+        ("CRKSPH", (25, 35, 50)), ("MFM", (25, 35)), ("MFM-adiabatic", (25, 35)), ("riemann", (35,)),
+        ("delta-plus", (35,)), ("transport-velocity-whole", (25,)))}
     yield (f"CRKSPH is {others['CRKSPH']} % off in Kp with 25, 35, 50 rows, "
            f"{percent('own-today-crksph-limit')} % in the limit. MFM is {others['MFM']} % off")
+    yield f"(`spam-MFM-adiabatic`) it is {others['MFM-adiabatic']} % off"
     yield (f"is {others['riemann']} %, delta-plus {others['delta-plus']} % off; a transport velocity is "
            f"{others['transport-velocity-whole']} % off")
     heat = [one("means", "nu", **point)(RB) for point in (particles(1e4, np.inf, "corrected"), grid(1e4))]
