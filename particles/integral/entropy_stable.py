@@ -11,17 +11,15 @@ from continuum.jit import check_formulas, jit
 from particles.integral.edges import NONE_BEYOND, NOWHERE
 from particles.integral.entropy_fluxes import BlendedPressure, Dissipation, Logarithmic, log_means
 from particles.integral.exchange import At, Exchange, Pressure, Stage, pressure_of
-from particles.integral.fixed import FixedSums, Point, stored
+from particles.integral.fixed import FixedSums, stored
+from particles.integral.lanes import Point
 from particles.integral.layer import Layer, LayerSums
 from particles.integral.once import Sending
-from particles.integral.positive import COURANT, LEAST, MORE, OLD, PART, Limits, Slopes, divided
+from particles.integral.positive import COURANT, LEAST, OLD, PART, Limits, Slopes, divided
 from particles.integral.stream import Stream, Streaming, keep
 from particles.limits import limit_of
 from particles.pairs import Faces, sweep
 from particles.threads import Threads
-
-#: what `fixed.Point` has; r = w - v, which is -v
-StablePoint = np.dtype([*Point.descr, *((name, "f8") for name in ("rx", "ry", *MORE))])
 
 
 @jit
@@ -62,7 +60,7 @@ class Stable(Limits, FixedSums):
         n, beyond = self.n, getattr(method, "beyond", NONE_BEYOND)
         image = getattr(self, "image", NOWHERE)
         self.set_limits(method.flow)
-        self.points = np.zeros(len(self.points), StablePoint)
+        self.points = np.zeros(len(self.points), Point)
         self.points["g"][n:] = -self.push[1]
         near, far = replace(method.edges, S=2*method.edges.apart), replace(beyond, S=2*beyond.apart)
         along = stored(near, far, n + image)

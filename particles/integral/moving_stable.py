@@ -15,10 +15,11 @@ from particles.integral.entropy_fluxes import MeanPressure
 from particles.integral.entropy_stable import flow_of
 from particles.integral.exchange import Listing
 from particles.integral.fixed import NO_IMAGES, check_number, first_invalid
+from particles.integral.lanes import Point
 from particles.integral.moving_delaunay import MovingDelaunay, RingSums
 from particles.integral.positive import COURANT, LEAST, OLD, PART, Limits, Slopes, divided
 from particles.integral.rings import remade
-from particles.integral.stable_rings import Point, _along, _at_sides, _sound, _turned
+from particles.integral.stable_rings import _along, _at_sides, _sound, _turned
 from particles.pairs import Faces, sweep
 from particles.threads import Threads
 

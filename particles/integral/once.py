@@ -11,12 +11,12 @@ import numpy as np
 from continuum.jit import formula, jit, jit_apart, jit_records
 from particles.integral.entropy_fluxes import Dissipation, Logarithmic, astir, brought, jumps
 from particles.integral.exchange import Conduction, Friction, Listing
+from particles.integral.lanes import BLOCK, COLUMNS, end_at, read_lanes
 from particles.integral.transposed_stress import Mending
 from particles.neighbours import u32, u64
 from particles.pairs import Face, Faces, rate, sweep
 from particles.threads import Threads
 
-BLOCK = u64(64)
 FEW = 12        # of the edges of a block: what is dissipated by more is computed of all
 #: terms of transport that give one end what they take from the other
 ALIKE = Friction, Conduction, Mending
@@ -92,46 +92,53 @@ def way_back(i, e, edges):
 
 
 @jit_apart
-def _send(first, last, terms, own, points, once, stirred, sent):
+def _carry(first, last, terms, own, points, a, b, once, stirred, sent):
     """What terms bring along edges, less the pressure of one end and of the other in equal parts; which edges
-    are astir."""
-    for h in range(u64(first)*BLOCK, u64(last)*BLOCK):
-        a, b, ab, q = points[once.i[h]], points[once.near[h]], edge_at(once, h), sent[h]
-        m, px, py, e = rate(terms, a, b, ab)
-        less = own*(b.P + b.hydro - a.P)
+    are astir. a, b : lanes of their ends."""
+    for h in range(first, last):
+        ab, q = edge_at(once, h), sent[h]
+        one, other = end_at(a, h - first, points[once.i[h]]), end_at(b, h - first, points[once.near[h]])
+        m, px, py, e = rate(terms, one, other, ab)
+        less = own*(other.P + other.hydro - one.P)
         q.m, q.px, q.py, q.e = m, px + less*ab.sx, py + less*ab.sy, e
-        stirred[h] = astir(a, b, ab, *jumps(a, b, ab))
-
-
-@jit
-def _stir_few(first, last, term, points, once, stirred, sent):
-    """Add what edges astir dissipate, one by one, in blocks with few of them."""
-    for block in range(u64(first), u64(last)):
-        edges = range(block*BLOCK, block*BLOCK + BLOCK)
-        if 0 < count(edges, stirred) <= FEW:
-            for h in edges:
-                if stirred[h]:
-                    q = sent[h]
-                    m, px, py, e = rate(term, points[once.i[h]], points[once.near[h]], edge_at(once, h))
-                    q.m, q.px, q.py, q.e = q.m + m, q.px + px, q.py + py, q.e + e
+        stirred[h] = astir(one, other, ab, *jumps(one, other, ab))
 
 
 @jit_apart
-def _stir_all(begin, end, term, points, once, stirred, sent):
-    for h in range(u64(begin), u64(end)):
-        a, b, ab, q = points[once.i[h]], points[once.near[h]], edge_at(once, h), sent[h]
-        m, px, py, e = brought(term.eos, a, b, ab, *jumps(a, b, ab))
-        here = 1.0*stirred[h]       # a branch would end the vector instructions
+def _stir_all(first, last, term, points, a, b, once, stirred, sent):
+    """Add what edges astir dissipate; a branch would end the vector instructions."""
+    for h in range(first, last):
+        ab, q, here = edge_at(once, h), sent[h], 1.0*stirred[h]
+        one, other = end_at(a, h - first, points[once.i[h]]), end_at(b, h - first, points[once.near[h]])
+        m, px, py, e = brought(term.eos, one, other, ab, *jumps(one, other, ab))
         q.m, q.px, q.py, q.e = q.m + here*m, q.px + here*px, q.py + here*py, q.e + here*e
 
 
 @jit
-def _stir_many(first, last, term, points, once, stirred, sent):
-    """The same in other blocks, of all edges."""
+def _stir_few(first, last, term, points, once, stirred, sent):
+    """The same, one by one."""
+    for h in range(first, last):
+        if stirred[h]:
+            q = sent[h]
+            m, px, py, e = rate(term, points[once.i[h]], points[once.near[h]], edge_at(once, h))
+            q.m, q.px, q.py, q.e = q.m + m, q.px + px, q.py + py, q.e + e
+
+
+@jit
+def _send(first, last, terms, rough, own, points, lines, once, stirred, sent):
+    """What edges bring. rough : what those astir dissipate by, if anything; lines : points as numbers."""
+    a, b = np.empty((COLUMNS, BLOCK)), np.empty((COLUMNS, BLOCK))
     for block in range(u64(first), u64(last)):
-        begin = block*BLOCK
-        if count(range(begin, begin + BLOCK), stirred) > FEW:
-            _stir_all(begin, begin + BLOCK, term, points, once, stirred, sent)
+        begin, end = block*BLOCK, (block + u64(1))*BLOCK
+        read_lanes(lines, once.i, begin, a)
+        read_lanes(lines, once.near, begin, b)
+        _carry(begin, end, terms, own, points, a, b, once, stirred, sent)
+        if rough is not None:
+            many = count(range(begin, end), stirred)
+            if many > FEW:
+                _stir_all(begin, end, rough, points, a, b, once, stirred, sent)
+            elif many > 0:
+                _stir_few(begin, end, rough, points, once, stirred, sent)
 
 
 @jit_records
@@ -151,7 +158,7 @@ class Sending:
 
     def __init__(self, flow: tuple, transport: tuple, n: int, threads: Threads):
         self.n, self.threads, self.total = n, threads, np.zeros((n, 4))
-        self.rough = tuple(term for term in flow if isinstance(term, Dissipation))
+        self.rough = next((term for term in flow if isinstance(term, Dissipation)), None)
         carried = tuple(term for term in flow if not isinstance(term, Dissipation))
         # a pressure leaves out a row's own
         self.own = float(any(not isinstance(term, Logarithmic) for term in carried))
@@ -175,8 +182,7 @@ class Sending:
             threads(sweep, self.n, Listing(self.others), points, self.edges, total)
         else:
             total.fill(0)
-        threads(_send, self.blocks, self.terms, self.own, points, once, self.stirred, sent)
-        for way in (_stir_few, _stir_many) if self.rough else ():
-            threads(way, self.blocks, self.rough[0], points, once, self.stirred, sent)
+        lines = points.view("f8").reshape(len(points), -1)
+        threads(_send, self.blocks, self.terms, self.rough, self.own, points, lines, once, self.stirred, sent)
         threads(_receive, self.n, self.own, slopes, self.edges, once, sent, total)
         return total

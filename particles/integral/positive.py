@@ -2,7 +2,7 @@
 
 One by Rusanov's flux leaves them so if it is short enough [Perthame & Shu 1996], also on edges that move.
 Where one by listed terms does not, edges leave out what takes more than a share of either point's, beyond
-Rusanov's. Points have r = w - v, eps, the speed of sound c, and `MORE`.
+Rusanov's. Points are those of `lanes`.
 """
 from typing import Any, NamedTuple
 
@@ -13,6 +13,7 @@ from continuum.jit import formula, generic, jit
 from particles.integral.entropy_fluxes import Dissipation, against, fastest
 from particles.integral.exchange import Listing
 from particles.integral.fixed import first_invalid, inner
+from particles.integral.lanes import LOW
 from particles.integral.once import Sending
 from particles.lists import Ghosts
 from particles.pairs import Faces, pair_term, rate, sweep
@@ -23,12 +24,6 @@ LEAST = 1e-6                    # part of a step that halving goes down to
 #: Euler steps of a part of a step each, and the share of the start in what each leaves: third order, and what
 #: they keep one by one they keep together    [Kraaijevanger 1991]
 PART, OLD = 0.5, (0.0, 0.0, 2/3, 0.0)
-
-SLOPES = ("rho_x", "u_x", "v_x", "P_x", "rho_y", "u_y", "v_y", "P_y")
-#: density, momentum and energy by Rusanov's flux; a step per volume and edge
-LOW = ("low_rho", "low_px", "low_py", "low_eps", "room")
-#: what these terms read and others do not: slopes, the speed of sound, gravity of images
-MORE = (*SLOPES, "c", "g", *LOW)
 
 
 class Slopes(NamedTuple):

@@ -3,17 +3,10 @@ import numpy as np
 
 from continuum.fluid import sound_speed
 from continuum.jit import jit
-from particles.integral.carried import FIELDS, OFFSETS
 from particles.integral.flips import doubled
-from particles.integral.positive import MORE
 from particles.integral.rings import apart
 from particles.neighbours import u64
 from particles.pairs import Face, rate
-
-#: what `carried.Point` has, its Td once more; nothing hangs on images, as there are none
-ALSO = ("eps", "hydro", *MORE)
-Point = np.dtype({"names": [*FIELDS, "T", *ALSO], "formats": ["f8"]*(len(FIELDS) + 1 + len(ALSO)),
-                  "offsets": [*OFFSETS, OFFSETS[FIELDS.index("Td")], *range(80, 80 + 8*len(ALSO), 8)]})
 
 
 @jit
@@ -21,6 +14,7 @@ def _sound(first, last, eos, y, points):
     for i in range(first, last):
         a = points[i]
         a.c, a.eps = sound_speed(eos, a.rho, a.e), y[8, i]/y[7, i]
+        a.T, a.ux, a.uy = a.Td, a.vx, a.vy
 
 
 @jit
