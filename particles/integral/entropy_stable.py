@@ -11,12 +11,13 @@ from continuum.jit import check_formulas, jit
 from particles.integral.edges import NONE_BEYOND, NOWHERE
 from particles.integral.entropy_fluxes import BlendedPressure, Dissipation, Logarithmic, log_means
 from particles.integral.exchange import At, Exchange, Pressure, Stage, pressure_of
-from particles.integral.fixed import FixedSums, stored
+from particles.integral.fixed import FixedSums, OwnPressure, read, stored
 from particles.integral.lanes import Point
 from particles.integral.layer import Layer, LayerSums
 from particles.integral.once import Sending
 from particles.integral.positive import COURANT, LEAST, OLD, PART, Limits, Slopes, divided
 from particles.integral.stream import Stream, Streaming, keep
+from particles.integral.transposed_stress import Heating
 from particles.limits import limit_of
 from particles.pairs import Faces, sweep
 from particles.threads import Threads
@@ -28,6 +29,20 @@ def _sound(first, last, eos, points):
         a = points[i]
         a.P, a.rx, a.ry = pressure_of(eos, a.rho, a.T), -a.vx, -a.vy
         a.c = sound_speed(eos, a.rho, energy(eos, a.rho, a.T))
+
+
+@jit
+def _differ(first, last, slopes, beyond, points, differences):
+    """Of what friction and heat see, V grad v: that of the flow, but beyond a plate."""
+    for i in range(first, last):
+        q, d = slopes[i], differences[i]
+        d[0], d[1], d[2], d[3] = q[1], q[5], q[2], q[6]
+    rows, image, sx, sy = beyond
+    for k in range(len(rows)):
+        if first <= rows[k] < last:
+            b, d = points[image[k]], differences[rows[k]]
+            du, dv = b.ux - b.vx, b.uy - b.vy
+            d[0], d[1], d[2], d[3] = d[0] + sx[k]*du, d[1] + sy[k]*du, d[2] + sx[k]*dv, d[3] + sy[k]*dv
 
 
 @jit
@@ -59,6 +74,7 @@ class Stable(Limits, FixedSums):
         super().__init__(method, threads)  # type: ignore[call-arg]
         n, beyond = self.n, getattr(method, "beyond", NONE_BEYOND)
         image = getattr(self, "image", NOWHERE)
+        self.beyond, self.differences = (beyond.i, n + image, *(beyond.S.T/2).copy()), np.zeros((n, 4))
         self.set_limits(method.flow)
         self.points = np.zeros(len(self.points), Point)
         self.points["g"][n:] = -self.push[1]
@@ -72,14 +88,21 @@ class Stable(Limits, FixedSums):
         k = 2*np.bincount(beyond.i, beyond.k, n) - method.edges.laplacian.diagonal()
         self.spread = k/self.at.V
 
-    def surround(self, state: np.ndarray) -> None:
-        """Images and held points; gradients, of images as in a mirror."""
-        super().surround(state)
-        points, V = self.points, self.at.V
-        self.threads(_sound, len(points), self.method.eos, points)
-        self.threads(sweep, self.n, Slopes(), points, self.at.edges, self.slopes)
-        self.threads(divided, self.n, self.slopes, V, points)
-        _mirrored(self.images.origin, points, self.n)
+    def look_at(self, state: np.ndarray) -> None:
+        """Fields of points, images and held ones; gradients, of images as in a mirror; what terms need."""
+        threads, n, points, method = self.threads, self.n, self.points, self.method
+        threads(read, n, state, method.eos, method.law, points)
+        self.surround(state)
+        threads(_sound, len(points), method.eos, points)
+        threads(sweep, n, Slopes(), points, self.edges, self.slopes)
+        threads(divided, n, self.slopes, self.at.V, points)
+        _mirrored(self.images.origin, points, n)
+        threads(_differ, n, self.slopes, self.beyond, points, self.differences)
+        for stage in self.exchange.stages:
+            if isinstance(stage, Heating):
+                stage.use(self.differences, self.at)
+            elif not isinstance(stage, OwnPressure):
+                stage.prepare(self.at)
 
     def longest(self) -> float:
         """The step that is known to keep a state positive that was looked at."""

@@ -16,7 +16,7 @@ from particles.neighbours import u64
 BLOCK, EIGHT = u64(64), u64(8)
 SLOPES = ("rho_x", "u_x", "v_x", "P_x", "rho_y", "u_y", "v_y", "P_y")
 #: three lines; r = w - v
-FIELDS = ("rho", "vx", "vy", "T", "P", "hydro", "rx", "ry", "eta", "k", "ux", "uy", "Td", "Fx", "Fy", "c",
+FIELDS = ("rho", "vx", "vy", "P", "T", "hydro", "rx", "ry", "eta", "k", "ux", "uy", "Td", "Fx", "Fy", "c",
           *SLOPES)
 COLUMNS = u64(len(FIELDS))
 #: density, momentum and energy by Rusanov's flux; a step per volume and edge

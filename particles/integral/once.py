@@ -17,7 +17,7 @@ from particles.neighbours import u32, u64
 from particles.pairs import Face, Faces, rate, sweep
 from particles.threads import Threads
 
-FEW = 12        # of the edges of a block: what is dissipated by more is computed of all
+FEW = 2         # of the edges of a block: what is dissipated by more is computed of all
 #: terms of transport that give one end what they take from the other
 ALIKE = Friction, Conduction, Mending
 Sent = np.dtype([(name, "f8") for name in ("m", "px", "py", "e")])
