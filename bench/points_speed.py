@@ -117,9 +117,10 @@ def bracket(name: str) -> Callable[[], float]:
     return called(n, sums.rates, state, np.empty_like(state))
 
 
-def marched(name: str) -> Callable[[], float]:
-    """The same within a run: with lists and RK4."""
-    return step(*ready(SCENE, name)[:2], RK4.evaluations)
+def marched(name: str, **changes: Any) -> Callable[[], float]:
+    """The same within a run: with lists, limits, and what makes one step of four evaluations."""
+    method, state, _ = ready(SCENE, name)
+    return step(replace(method, **changes), state, RK4.evaluations)
 
 
 def main() -> None:
@@ -130,6 +131,11 @@ def main() -> None:
              "fixed points, Delaunay": fixed("fixed-jittered-delaunay"),
              "fixed points, h = 2 a, edge by edge": fixed("fixed-lattice", fast=False),
              "fixed points, Delaunay, edge by edge": fixed("fixed-jittered-delaunay", fast=False),
+             "fixed points, h = 2 a, edge by edge, in steps": marched("fixed-lattice", form=LayerSums),
+             "fixed points, Delaunay, edge by edge, in steps": marched("fixed-jittered-delaunay",
+                                                                       form=LayerSums),
+             "lattice, entropy-stable, in steps": marched(LATTICE),
+             "Delaunay, entropy-stable, in steps": marched(DELAUNAY),
              "lattice, entropy-stable": fixed(LATTICE),
              "lattice, entropy-stable, Sod's tube": entropy_stable(LATTICE),
              "lattice, entropy-stable, noise": entropy_stable(LATTICE, 0.3),

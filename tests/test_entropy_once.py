@@ -9,6 +9,7 @@ from continuum.scene import RayleighBenard
 from particles.integral.entropy_fluxes import over_mean
 from particles.integral.entropy_stable import StableLayer
 from particles.integral.exchange import Listing
+from particles.integral.lanes import COLUMNS, FIELDS, End, Point, end_at, read_lanes
 from particles.integral.once import Sending, empty_once, fill_once
 from particles.integral.points import random
 from particles.integral.positive import Slopes
@@ -101,6 +102,16 @@ def test_means_are_right_to_rounding_whatever_the_ratio():
         assert np.abs(means/np.where(r == 1, 1, right) - 1).max() < 1e-15
     with np.errstate(over="ignore"):        # of bits
         assert all(np.isnan(over_mean(*np.float64(pair))) for pair in ((np.nan, 1.0), (1.0, np.nan)))
+
+
+def test_lanes_are_fields_of_points():
+    draw = np.random.default_rng(4)
+    lines, which = draw.normal(size=(50, len(Point.names))), draw.integers(0, 50, 128).astype(np.uint32)
+    points, lanes = lines.view(Point)[:, 0], np.empty((int(COLUMNS), 64))
+    read_lanes(lines, which, np.uint64(64), lanes)
+    assert np.array_equal(lanes, [points[name][which[64:]] for name in FIELDS])
+    end = end_at(lanes, 5, points[which[69]])
+    assert all(getattr(end, name) == points[name][which[69]] for name in End._fields)
 
 
 def test_nothing_is_sent_where_nothing_is_listed():

@@ -18,8 +18,8 @@ from particles.integral.entropy_fluxes import (
 )
 from particles.integral.entropy_stable import StableLayer, StableStream
 from particles.integral.exchange import Listing, Pressure
-from particles.integral.points import of_positions, random
 from particles.integral.lanes import SLOPES, Point
+from particles.integral.points import of_positions, random
 from particles.integral.triangulation import around
 from particles.pairs import Faces, sweep
 from particles.run import Plan, run

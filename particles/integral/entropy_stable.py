@@ -32,9 +32,10 @@ def _sound(first, last, eos, points):
 
 
 @jit
-def _differ(first, last, slopes, beyond, points, differences):
-    """Of what friction and heat see, V grad v: that of the flow, but beyond a plate."""
+def _differ(first, last, slopes, V, beyond, points, differences):
+    """Slopes; of what friction and heat see, V grad v: that of the flow, but beyond a plate."""
     for i in range(first, last):
+        divided(i, i + 1, slopes, V, points)
         q, d = slopes[i], differences[i]
         d[0], d[1], d[2], d[3] = q[1], q[5], q[2], q[6]
     rows, image, sx, sy = beyond
@@ -43,6 +44,14 @@ def _differ(first, last, slopes, beyond, points, differences):
             b, d = points[image[k]], differences[rows[k]]
             du, dv = b.ux - b.vx, b.uy - b.vy
             d[0], d[1], d[2], d[3] = d[0] + sx[k]*du, d[1] + sy[k]*du, d[2] + sx[k]*dv, d[3] + sy[k]*dv
+
+
+@jit
+def _went_on(first, last, dt, rates, state, before):
+    for row in range(len(state)):
+        for i in range(first, last):
+            before[row, i] = state[row, i]
+            state[row, i] += dt*rates[row, i]
 
 
 @jit
@@ -75,6 +84,7 @@ class Stable(Limits, FixedSums):
         n, beyond = self.n, getattr(method, "beyond", NONE_BEYOND)
         image = getattr(self, "image", NOWHERE)
         self.beyond, self.differences = (beyond.i, n + image, *(beyond.S.T/2).copy()), np.zeros((n, 4))
+        self.before = np.zeros((4, n))
         self.set_limits(method.flow)
         self.points = np.zeros(len(self.points), Point)
         self.points["g"][n:] = -self.push[1]
@@ -95,9 +105,8 @@ class Stable(Limits, FixedSums):
         self.surround(state)
         threads(_sound, len(points), method.eos, points)
         threads(sweep, n, Slopes(), points, self.edges, self.slopes)
-        threads(divided, n, self.slopes, self.at.V, points)
+        threads(_differ, n, self.slopes, self.at.V, self.beyond, points, self.differences)
         _mirrored(self.images.origin, points, n)
-        threads(_differ, n, self.slopes, self.beyond, points, self.differences)
         for stage in self.exchange.stages:
             if isinstance(stage, Heating):
                 stage.use(self.differences, self.at)
@@ -110,9 +119,8 @@ class Stable(Limits, FixedSums):
 
     def euler(self, state: np.ndarray, dt: float, rates: np.ndarray) -> bool:
         """Go on by dt from a state with these rates; False: not even Rusanov's flux leaves rho, e > 0."""
-        before = state.copy()
-        state += dt*rates
-        less = self.less(before, state, dt/self.at.V)
+        self.threads(_went_on, self.n, dt, rates, state, self.before)
+        less = self.less(self.before, state, dt/self.at.V)
         if less is None:
             return False
         state += less

@@ -35,12 +35,13 @@ def vector_at(builder: Any, array: Any, row: Any, column: Any) -> Any:
 
 def turned(builder: Any, rows: list) -> list:
     """Columns of eight rows of eight numbers: of any two, squares of 1, 2 and 4 change places."""
+    mask = ir.VectorType(ir.IntType(32), 8)
     for d in (1, 2, 4):
         low = [j + 8 - d if j & d else j for j in range(8)]
-        for mask, k in ((ir.Constant(ir.VectorType(ir.IntType(32), 8), low), k) for k in range(8) if not k & d):
-            high = ir.Constant(mask.type, [j + d for j in low])
-            one, other = rows[k], rows[k + d]
-            rows[k], rows[k + d] = (builder.shuffle_vector(one, other, part) for part in (mask, high))
+        parts = [ir.Constant(mask, [j + more for j in low]) for more in (0, d)]
+        for k in (k for k in range(8) if not k & d):
+            pair = rows[k], rows[k + d]
+            rows[k], rows[k + d] = (builder.shuffle_vector(*pair, part) for part in parts)
     return rows
 
 

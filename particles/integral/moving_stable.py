@@ -19,7 +19,7 @@ from particles.integral.lanes import Point
 from particles.integral.moving_delaunay import MovingDelaunay, RingSums
 from particles.integral.positive import COURANT, LEAST, OLD, PART, Limits, Slopes, divided
 from particles.integral.rings import remade
-from particles.integral.stable_rings import _along, _at_sides, _sound, _turned
+from particles.integral.stable_rings import _along, _at_sides, _gained, _sound, _turned
 from particles.pairs import Faces, sweep
 from particles.threads import Threads
 
@@ -36,7 +36,7 @@ class StableRings(Limits, RingSums):
         super().__init__(method, threads)
         self.set_limits(method.flow)
         self.images, self.slowed, self.turned = NO_IMAGES, 0, -1
-        self.whole = np.zeros((self.n, 8))
+        self.whole, self.densities = np.zeros((self.n, 8)), np.zeros((2, 4, self.n))
         self.points = np.zeros(self.n, Point)
         self.bench = self.bench._replace(points=self.points)
         self.fluid = self.fluid._replace(terms=Listing((*method.transport, *method.flow)))
@@ -58,6 +58,7 @@ class StableRings(Limits, RingSums):
     def look_at(self, state: np.ndarray) -> None:
         """What held points receive now, on the triangulation where points are."""
         self.meet(state[:2])
+        self.lead(state[:2])
         self.look(state)
         receive(self.fluid, self.rings, self.held, state, self.bench, self.received)
 
@@ -65,14 +66,21 @@ class StableRings(Limits, RingSums):
         """Edges of points (2, n)."""
         bench = self.bench
         march.edges_of(self.threads, self.n, x, self.rings, bench.V, bench.pull, bench.spread, bench.crossed)
+
+    def lead(self, x: np.ndarray) -> None:
+        """What leads along edges that are met; their volumes, whose place others take."""
         self.threads(_along, self.n, x, self.rings)
-        self.V = bench.V.copy()
+        self.V = self.bench.V.copy()
+
+    def fields(self, y: np.ndarray) -> None:
+        """Of points."""
+        read(self.threads, self.n, y, self.method.eos, self.method.law, self.points)
+        self.threads(_sound, self.n, self.method.eos, y, self.points)
 
     def look(self, y: np.ndarray) -> None:
         """Fields of points and their slopes."""
-        n, eos, points, rings = self.n, self.method.eos, self.points, self.rings
-        read(self.threads, n, y, eos, self.method.law, points)
-        self.threads(_sound, n, eos, y, points)
+        self.fields(y)
+        n, points, rings = self.n, self.points, self.rings
         self.threads(sweep, n, Slopes(), points, self.edges, self.slopes)
         np.copyto(self.whole, self.slopes)
         self.threads(_at_sides, n, Slopes(), points, rings, self.slopes)
@@ -104,7 +112,7 @@ class StableRings(Limits, RingSums):
     def guess(self, y: np.ndarray, dt: float) -> float:
         """The longest step from here, on edges of points as they are; the whole one if none is known."""
         self.meet(y[:2])
-        self.look(y)
+        self.fields(y)
         follow(self.threads, self.n, self.fluid, self.rings, self.bench)
         longest = self.longest(y)
         return longest if longest > 0 else dt
@@ -128,7 +136,8 @@ class StableRings(Limits, RingSums):
             heat(self.held, 1.0, self.bench.once)
             if not self.euler(y, PART*h):
                 return False, h/2
-            y[EXCHANGED] = old*start + (1 - old)*y[EXCHANGED]
+            if old:
+                y[EXCHANGED] = old*start + (1 - old)*y[EXCHANGED]
             hold(self.method.eos, self.held, y)
         march.move(self.threads, self.n, h, shift, self.bench, y)
         return True, longest
@@ -143,8 +152,7 @@ class StableRings(Limits, RingSums):
             if full >= 0:
                 self.rings = remade(self.rings)
                 self.widen()
-        self.threads(_along, self.n, bench.middle, self.rings)
-        self.V = bench.V.copy()
+        self.lead(bench.middle)
         self.sending.follow(self.edges)
         if turned < 0:
             turned = max(self.threads(_turned, self.n, y[:2] + h*y[2:4], self.rings))
@@ -157,12 +165,10 @@ class StableRings(Limits, RingSums):
 
     def euler(self, y: np.ndarray, h: float) -> bool:
         """One step of what is exchanged, places apart; False: not even Rusanov's flux leaves rho, e > 0."""
-        bench, g = self.bench, self.method.g
-        (m, px, py, E), once = self.sending.sum(self.points, self.whole).T, bench.once.T
-        before = y[DENSITIES]/y[7]
-        y[EXCHANGED] += h*np.stack([px + once[0], py + once[1] - g*y[6], m, bench.flow, E + once[2] - g*y[5]])
+        total, (before, after) = self.sending.sum(self.points, self.whole), self.densities
+        self.threads(_gained, self.n, h, self.method.g, total, self.bench, y, before, after)
         self.lost = self.n if (y[7] > 0).all() else int(y[7].argmin())
-        less = self.less(before, y[DENSITIES]/y[7], h/y[7]) if self.lost == self.n else None
+        less = self.less(before, after, h/y[7]) if self.lost == self.n else None
         if less is None:
             return False
         y[DENSITIES] += y[7]*less

@@ -1,6 +1,4 @@
 """What points that move with a flux that survives need of their triangulation, compiled."""
-import numpy as np
-
 from continuum.fluid import sound_speed
 from continuum.jit import jit
 from particles.integral.flips import doubled
@@ -15,6 +13,19 @@ def _sound(first, last, eos, y, points):
         a = points[i]
         a.c, a.eps = sound_speed(eos, a.rho, a.e), y[8, i]/y[7, i]
         a.T, a.ux, a.uy = a.Td, a.vx, a.vy
+
+
+@jit
+def _gained(first, last, h, g, total, bench, y, before, after):
+    """Add what a time h brings; densities before and after it."""
+    once, flow = bench.once, bench.flow
+    for i in range(first, last):
+        m, px, py, E, V = y[6, i], y[4, i], y[5, i], y[8, i], y[7, i]
+        before[0, i], before[1, i], before[2, i], before[3, i] = m/V, px/V, py/V, E/V
+        E, py_new = E + h*(total[i, 3] + once[i, 2] - g*py), py + h*(total[i, 2] + once[i, 1] - g*m)
+        m, px, V = m + h*total[i, 0], px + h*(total[i, 1] + once[i, 0]), V + h*flow[i]
+        y[6, i], y[4, i], y[5, i], y[8, i], y[7, i] = m, px, py_new, E, V
+        after[0, i], after[1, i], after[2, i], after[3, i] = m/V, px/V, py_new/V, E/V
 
 
 @jit
