@@ -54,7 +54,7 @@ def test_no_start_is_too_violent_and_sums_are_kept(scene, kept):
     state = at_random(made)
     begun, sums = state.copy(), made.start(state.shape[1], ONE)
     longest = sums.longest
-    sums.longest = lambda y: 10*longest(y)
+    sums.longest = lambda y: 20*longest(y)
     sums.march(state, 0.5, 2)
     assert sums.flips and sums.limited and sums.refused and not sums.fault(state, np.arange(sums.n))
     change = (state.sum(axis=1) - begun.sum(axis=1))[kept]
