@@ -141,6 +141,14 @@ def unturned(a, b, ab):
 
 
 @formula
+def shock(a, b, ab, bend):
+    """Parts of what the limited mean leaves that dissipate: of the pressure, where its bend over 2 {P} is not
+    below what `astir` sees, and of all, which grows with it."""
+    wave, steep = unturned(a, b, ab), STEEPEST*bend
+    return wave*max(0.0, 1 - CALM/(steep + 1e-300)), min(1.0, wave*steep)
+
+
+@formula
 def jumps(a, b, ab):
     """Differences along an edge of P, rho, v_x and v_y, as in `bend`."""
     x, y, mean = 2*ab.dx, 2*ab.dy, 0.5*(a.rho + b.rho)
@@ -186,13 +194,12 @@ def waves(eos, a, b, ab, P, r, by_x, by_y):
     of_n, n_line = bend(dun, u0*nx + v0*ny, u1*nx + v1*ny, dun)
     of_t, _ = bend(dut, v0*nx - u0*ny, v1*nx - u1*ny, dut)
     of_s, s_line = bend(drho - dP/c2, r0 - P0/c2, r1 - P1/c2, drho - (b.P - a.P)/c2)
-    wave = unturned(a, b, ab)
-    sigma = min(1.0, STEEPEST*wave*abs(P0 + P1 - 4*dP)/(a.P + b.P))
+    steep, sigma = shock(a, b, ab, abs(P0 + P1 - 4*dP)/(a.P + b.P))
     rx, ry = 0.5*(a.rx + b.rx), 0.5*(a.ry + b.ry)
     flow, fast = np.sqrt(rx*rx + ry*ry), fastest(a, b, ab)
     slow = size*np.sqrt((rx*nx + ry*ny)**2 + (SLOW*flow)**2)
     jump = drho/rho + dbeta*e       # of -s
-    sound = fast*max(of_P, wave*P_line)*rho/gamma*(jump - c2*cv*dbeta)
+    sound = fast*max(of_P, steep*P_line)*rho/gamma*(jump - c2*cv*dbeta)
     across = fast*min(1.0, max(flow/np.sqrt(c2), sigma))*max(of_n, sigma*n_line)*mean*dun
     heat, along = slow*max(of_s, sigma*s_line)*rho*(gamma - 1)/gamma*jump, slow*of_t*mean*dut
     m = sound + heat
