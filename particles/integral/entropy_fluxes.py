@@ -108,7 +108,7 @@ def _(term, a, b, ab):
 @formula
 def bend(d, one, other, jump):
     """psi of a difference d along an edge, twice what gradients at its ends say of it; and what the limited
-    mean of the differences before and behind, 2 a c/(a + c) of one sign, leaves of d    [Jameson 1995, q = 2].
+    mean of the differences before and behind, 2 a c/(a + c) of one sign, leaves of d    [Jameson 1995].
     jump : which is dissipated, where it is not d."""
     a, c = one - d, other - d
     s = abs(a - 2*d + c)/(abs(a) + 2*max(abs(d), abs(jump)) + abs(c) + 1e-300)
@@ -125,8 +125,8 @@ def calm(d, one, other, scale):
 
 @formula
 def turning(a):
-    """(rot v)^2 and by how much the strain's (u_x - v_y)^2 + (u_y + v_x)^2 is over (div v)^2, as it is between
-    vortices and no plane wave's is."""
+    """(rot v)^2, and by how much the strain's (u_x - v_y)^2 + (u_y + v_x)^2 exceeds (div v)^2, as it does
+    between vortices and in no plane wave."""
     strain = (a.u_x - a.v_y)**2 + (a.u_y + a.v_x)**2
     return (a.v_x - a.u_y)**2 + max(0.0, strain - (a.u_x + a.v_y)**2)
 
