@@ -51,7 +51,7 @@ def test_a_moving_torus_keeps_entropy_without_dissipation(flow):
 def test_no_start_is_too_violent_and_sums_are_kept(scene, kept):
     """Also through limits and flips, in steps far too long, which are halved."""
     made = replace(ready(scene, NAME).method, law=ConstEta(0, 0))
-    state = at_random(made)
+    state = at_random(made, 2.0)
     begun, sums = state.copy(), made.start(state.shape[1], ONE)
     longest = sums.longest
     sums.longest = lambda y: 10*longest(y)

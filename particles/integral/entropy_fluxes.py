@@ -49,7 +49,8 @@ class BlendedPressure(NamedTuple):
 
 class Dissipation(NamedTuple):
     """|S|/2 R L psi T R^T Dw: of jumps in sound, entropy and shear what no straight line explains, psi = s^m,
-    and more in shocks; points have gradients, edges lead along (dx, dy)    [Barth 1999; Jameson 1995]"""
+    and more in shocks; of pressure what Jameson's limited mean leaves, but where flow turns or strains.
+    Points have gradients, edges lead along (dx, dy)    [Barth 1999; Jameson 1995]"""
     eos: Any
 
 
@@ -106,11 +107,13 @@ def _(term, a, b, ab):
 
 @formula
 def bend(d, one, other, jump):
-    """psi of a difference d along an edge, twice what gradients at its ends say of it; and what van Albada's
-    mean of the differences before and behind leaves of d. jump : which is dissipated, where it is not d."""
+    """psi of a difference d along an edge, twice what gradients at its ends say of it; and what the limited
+    mean of the differences before and behind, 2 a c/(a + c) of one sign, leaves of d    [Jameson 1995].
+    jump : which is dissipated, where it is not d."""
     a, c = one - d, other - d
     s = abs(a - 2*d + c)/(abs(a) + 2*max(abs(d), abs(jump)) + abs(c) + 1e-300)
-    line = max(a*c, 0.0)*(a + c)*d/((a*a + c*c)*d*d + 1e-300)
+    both = (a + c)*d
+    line = 2*max(a*c, 0.0)*both/(both*both + 1e-300)
     return s**STEEP, min(1.0, max(0.0, 1 - line))
 
 
@@ -121,12 +124,28 @@ def calm(d, one, other, scale):
 
 
 @formula
+def turning(a):
+    """(rot v)^2, and by how much the strain's (u_x - v_y)^2 + (u_y + v_x)^2 exceeds (div v)^2, as it does
+    between vortices and in no plane wave."""
+    strain = (a.u_x - a.v_y)**2 + (a.u_y + a.v_x)**2
+    return (a.v_x - a.u_y)**2 + max(0.0, strain - (a.u_x + a.v_y)**2)
+
+
+@formula
 def unturned(a, b, ab):
-    """(div v)^2/((div v)^2 + (rot v)^2) of two points, 1 where neither is CALM of sound's passage: tells a
+    """(div v)^2 over it and `turning` of two points, 1 where neither is CALM of sound's passage: tells a
     shock's bend of the pressure from what holds a vortex together    [Ducros et al. 1999]"""
     along = ab.dx*ab.dx + ab.dy*ab.dy
     shrinks = CALM*CALM*a.c*b.c + along*((a.u_x + a.v_y)**2 + (b.u_x + b.v_y)**2)
-    return shrinks/(shrinks + along*((a.v_x - a.u_y)**2 + (b.v_x - b.u_y)**2))
+    return shrinks/(shrinks + along*(turning(a) + turning(b)))
+
+
+@formula
+def shock(a, b, ab, bend):
+    """Parts of what the limited mean leaves that dissipate: of the pressure, where its bend over 2 {P} is not
+    below what `astir` sees, and of all, which grows with it."""
+    wave, steep = unturned(a, b, ab), STEEPEST*bend
+    return wave*max(0.0, 1 - CALM/(steep + 1e-300)), min(1.0, wave*steep)
 
 
 @formula
@@ -175,12 +194,12 @@ def waves(eos, a, b, ab, P, r, by_x, by_y):
     of_n, n_line = bend(dun, u0*nx + v0*ny, u1*nx + v1*ny, dun)
     of_t, _ = bend(dut, v0*nx - u0*ny, v1*nx - u1*ny, dut)
     of_s, s_line = bend(drho - dP/c2, r0 - P0/c2, r1 - P1/c2, drho - (b.P - a.P)/c2)
-    sigma = min(1.0, STEEPEST*unturned(a, b, ab)*abs(P0 + P1 - 4*dP)/(a.P + b.P))
+    steep, sigma = shock(a, b, ab, abs(P0 + P1 - 4*dP)/(a.P + b.P))
     rx, ry = 0.5*(a.rx + b.rx), 0.5*(a.ry + b.ry)
     flow, fast = np.sqrt(rx*rx + ry*ry), fastest(a, b, ab)
     slow = size*np.sqrt((rx*nx + ry*ny)**2 + (SLOW*flow)**2)
     jump = drho/rho + dbeta*e       # of -s
-    sound = fast*max(of_P, sigma*P_line)*rho/gamma*(jump - c2*cv*dbeta)
+    sound = fast*max(of_P, steep*P_line)*rho/gamma*(jump - c2*cv*dbeta)
     across = fast*min(1.0, max(flow/np.sqrt(c2), sigma))*max(of_n, sigma*n_line)*mean*dun
     heat, along = slow*max(of_s, sigma*s_line)*rho*(gamma - 1)/gamma*jump, slow*of_t*mean*dut
     m = sound + heat

@@ -12,13 +12,12 @@ from continuum.fluid import VanDerWaals
 from continuum.jit import formula
 from particles.integral.entropy_fluxes import (
     SLOW,
-    STEEPEST,
     bend,
     brought,
     fastest,
     log_means,
     over_mean,
-    unturned,
+    shock,
 )
 from particles.integral.positive import KEPT, Excess, above_cold, crowded, limited, share
 from particles.pairs import pair_term, rate
@@ -69,12 +68,12 @@ def _(eos, a, b, ab, P, r, by_x, by_y):
     of_n, n_line = bend(dun, u0*nx + v0*ny, u1*nx + v1*ny, dun)
     of_t, _ = bend(dut, v0*nx - u0*ny, v1*nx - u1*ny, dut)
     of_s, s_line = bend(drho - dP/c2, r0 - P0/c2, r1 - P1/c2, drho - (b.P - a.P)/c2)
-    sigma = min(1.0, STEEPEST*unturned(a, b, ab)*abs(P0 + P1 - 4*dP)/(2*both))
+    steep, sigma = shock(a, b, ab, abs(P0 + P1 - 4*dP)/(2*both))
     rx, ry = 0.5*(a.rx + b.rx), 0.5*(a.ry + b.ry)
     flow, fast = np.sqrt(rx*rx + ry*ry), fastest(a, b, ab)
     slow = size*np.sqrt((rx*nx + ry*ny)**2 + (SLOW*flow)**2)
     jump = (b.P/b.T - a.P/a.T)/rho + e*dbeta        # of g/T
-    sound = fast*max(of_P, sigma*P_line)*rho/(beta*c2)*(jump - h*dbeta)
+    sound = fast*max(of_P, steep*P_line)*rho/(beta*c2)*(jump - h*dbeta)
     across = fast*min(1.0, max(flow/np.sqrt(c2), sigma))*max(of_n, sigma*n_line)*mean*dun
     heat = slow*max(of_s, sigma*s_line)*rho/beta*(1/soft - 1/c2)*(jump - at_P*dbeta)
     m, along = sound + heat, slow*of_t*mean*dut
