@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from continuum.jit import formula, generic
+from continuum.jit import generic
 from particles.pairs import pair_term
 
 
@@ -22,12 +22,13 @@ class ArithmeticGradients(NamedTuple):
 
 
 @generic
-def density_factor(term, rho):
-    """What the records hold as s, so that 1/rho_ab costs little in the loop."""
+def summand(term, rho, vx, vy, T):
+    """Fields of a record (vx, vy, T, s), as `rate` and `finished` of the kind want them."""
 
 
-density_factor.of(Gradients)(lambda term, rho: 1/np.sqrt(rho))
-density_factor.of(ArithmeticGradients)(lambda term, rho: rho)
+@generic
+def finished(term, a, sums):
+    """What the sums over partners of a record say of it."""
 
 
 class Fluxes(NamedTuple):
@@ -36,35 +37,62 @@ class Fluxes(NamedTuple):
     a_a = -sum_b [(P/rho^2)_a + (P/rho^2)_b].grad w,
     de_a = -sum_b (1/2) [(P/rho^2)_a + (P/rho^2)_b] : (v_b - v_a) grad w - sum_b [(Q/rho^2)_a +
     (Q/rho^2)_b].grad w
+
+    Both are linear in what b brings: P/rho^2, v, 1 and h = Q/rho^2 + v.P/2rho^2. Pairs sum these times grad w.
     """
 
 
 @pair_term(Gradients, 8)
 def _(term, a, b, ab):
-    return _differences(a, b, a.s*b.s*ab.wx, a.s*b.s*ab.wy)
+    x, y = ab.wx, ab.wy
+    return b.vx*x, b.vy*x, b.T*x, b.s*x, b.vx*y, b.vy*y, b.T*y, b.s*y
+
+
+@summand.of(Gradients)
+def _(term, rho, vx, vy, T):
+    s = 1/np.sqrt(rho)
+    return s*vx, s*vy, s*T, s
+
+
+@finished.of(Gradients)
+def _(term, a, sums):
+    """s_a sum_b s_b (f_b - f_a) grad w from sums of s_b f_b grad w."""
+    ux, vx, Tx, x, uy, vy, Ty, y = sums
+    return (a.s*ux - a.vx*x, a.s*vx - a.vy*x, a.s*Tx - a.T*x, 0.0,
+            a.s*uy - a.vx*y, a.s*vy - a.vy*y, a.s*Ty - a.T*y, 0.0)
 
 
 @pair_term(ArithmeticGradients, 8)
 def _(term, a, b, ab):
     f = 2/(a.s + b.s)
-    return _differences(a, b, f*ab.wx, f*ab.wy)
+    x, y, u, v, T = f*ab.wx, f*ab.wy, b.vx - a.vx, b.vy - a.vy, b.T - a.T
+    return u*x, v*x, T*x, 0.0, u*y, v*y, T*y, 0.0
 
 
-@formula
-def _differences(a, b, x, y):
-    """Differences of vx, vy, T times x, then times y; s makes them four, one vector register."""
-    u, v, T, s = b.vx - a.vx, b.vy - a.vy, b.T - a.T, b.s - a.s
-    return u*x, v*x, T*x, s*x, u*y, v*y, T*y, s*y
+summand.of(ArithmeticGradients)(lambda term, rho, vx, vy, T: (vx, vy, T, rho))
 
 
-@pair_term(Fluxes, 5)
+@finished.of(ArithmeticGradients)
+def _(term, a, sums):
+    ux, vx, Tx, _, uy, vy, Ty, _ = sums
+    return ux, vx, Tx, 0.0, uy, vy, Ty, 0.0
+
+
+@pair_term(Fluxes, 16)
 def _(term, a, b, ab):
-    # four equal sums in one vector register; the fourth is not used
-    fx = (a.xx + b.xx)*ab.wx + (a.yx + b.yx)*ab.wy
-    fy = (a.xy + b.xy)*ab.wx + (a.yy + b.yy)*ab.wy
-    q = (a.qx + b.qx)*ab.wx + (a.qy + b.qy)*ab.wy
-    v = (a.vx + b.vx)*ab.wx + (a.vy + b.vy)*ab.wy
-    return -fx, -fy, -q, -v, -0.5*((b.vx - a.vx)*fx + (b.vy - a.vy)*fy)
+    # eight fields one behind the other, times x and times y: four vector instructions
+    x, y = ab.wx, ab.wy
+    return (b.xx*x, b.xy*x, b.hx*x, b.vx*x, b.one*x, b.yy*x, b.hy*x, b.vy*x,
+            b.xx*y, b.xy*y, b.hx*y, b.vx*y, b.one*y, b.yy*y, b.hy*y, b.vy*y)
+
+
+@finished.of(Fluxes)
+def _(term, a, sums):
+    xx_x, xy_x, hx_x, u_x, x, _, _, v_x, _, xy_y, _, u_y, y, yy_y, hy_y, v_y = sums
+    sent, own = (xx_x + xy_y, xy_x + yy_y), (a.xx*x + a.xy*y, a.xy*x + a.yy*y)
+    heat = a.hx*x + a.hy*y + hx_x + hy_y + 0.5*(a.xx*u_x + a.xy*(u_y + v_x) + a.yy*v_y)
+    work = a.vx*(own[0] + 0.5*sent[0]) + a.vy*(own[1] + 0.5*sent[1])
+    return -own[0] - sent[0], -own[1] - sent[1], work - heat
 
 
 class DirectFluxes(NamedTuple):

@@ -16,7 +16,6 @@ import numpy as np
 from continuum.fluid import ConstEta
 from particles.integral.edge_makers import delaunay, exact
 from particles.integral.points import Points, of_positions, wrapped
-from particles.pairs import sweep
 from particles.run import Plan, run
 from particles.weights import WendlandC2
 from studies.build import spam
@@ -47,8 +46,8 @@ def of_particles(points: Points, weight: Any, transport: type) -> Operators:
 
     def respond(P: Any, u: Any = 0.0, v: Any = 0.0, T: Any = 1.0) -> np.ndarray:
         around.vx[:], around.vy[:], around.T[:] = u, v, T
-        sums.threads(sweep, n, *sums.exchange(P + 0*around.x), around.pairs, sums.pull)
-        return around.rho[:n]*sums.pull[:n, :3].T
+        sums.push(P + 0*around.x, around.pairs, sums.pull)
+        return around.rho[:n]*sums.pull[:, :3].T
 
     def gradient(f: Field) -> np.ndarray:
         return -np.array([respond(1.0, f(places))[2], respond(1.0, 0.0, f(places))[2]])
