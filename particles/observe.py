@@ -78,9 +78,9 @@ class PlateHeat(NamedTuple):
 
     def __call__(self, sums: Any, state: np.ndarray) -> float:
         """From densities and gradients that are up to date."""
-        less, pull = sums.less if self.pressure else np.zeros_like(sums.less), np.empty_like(sums.pull)
-        sums.push(less, pairs_behind(sums, self.side), pull)
-        ax, ay, heat = pull[:, :3].T
+        less, rates = sums.less if self.pressure else np.zeros_like(sums.less), np.empty_like(state)
+        sums.push(state, less, pairs_behind(sums, self.side), rates)
+        _, _, ax, ay, heat = rates[:5]
         power = sums.shares(state)*(state[2]*ax + state[3]*ay + heat)
         return float(sums.method.m*np.sum(power)/sums.method.box[0])
 

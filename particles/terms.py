@@ -23,12 +23,15 @@ class ArithmeticGradients(NamedTuple):
 
 @generic
 def summand(term, rho, vx, vy, T):
-    """Fields of a record (vx, vy, T, s), as `rate` and `finished` of the kind want them."""
+    """Fields of a record (vx, vy, T, s), as the pair term wants them."""
 
 
 @generic
-def finished(term, a, sums):
-    """What the sums over partners of a record say of it."""
+def finish(term, a, sums):
+    """Make gradients at a record of its sums over partners, in place."""
+
+
+finish.of(ArithmeticGradients)(lambda term, a, sums: None)
 
 
 class Fluxes(NamedTuple):
@@ -54,12 +57,12 @@ def _(term, rho, vx, vy, T):
     return s*vx, s*vy, s*T, s
 
 
-@finished.of(Gradients)
+@finish.of(Gradients)
 def _(term, a, sums):
     """s_a sum_b s_b (f_b - f_a) grad w from sums of s_b f_b grad w."""
-    ux, vx, Tx, x, uy, vy, Ty, y = sums
-    return (a.s*ux - a.vx*x, a.s*vx - a.vy*x, a.s*Tx - a.T*x, 0.0,
-            a.s*uy - a.vx*y, a.s*vy - a.vy*y, a.s*Ty - a.T*y, 0.0)
+    x, y = sums[3], sums[7]
+    sums[0], sums[1], sums[2] = a.s*sums[0] - a.vx*x, a.s*sums[1] - a.vy*x, a.s*sums[2] - a.T*x
+    sums[4], sums[5], sums[6] = a.s*sums[4] - a.vx*y, a.s*sums[5] - a.vy*y, a.s*sums[6] - a.T*y
 
 
 @pair_term(ArithmeticGradients, 8)
@@ -72,27 +75,12 @@ def _(term, a, b, ab):
 summand.of(ArithmeticGradients)(lambda term, rho, vx, vy, T: (vx, vy, T, rho))
 
 
-@finished.of(ArithmeticGradients)
-def _(term, a, sums):
-    ux, vx, Tx, _, uy, vy, Ty, _ = sums
-    return ux, vx, Tx, 0.0, uy, vy, Ty, 0.0
-
-
 @pair_term(Fluxes, 16)
 def _(term, a, b, ab):
     # eight fields one behind the other, times x and times y: four vector instructions
     x, y = ab.wx, ab.wy
     return (b.xx*x, b.xy*x, b.hx*x, b.vx*x, b.one*x, b.yy*x, b.hy*x, b.vy*x,
             b.xx*y, b.xy*y, b.hx*y, b.vx*y, b.one*y, b.yy*y, b.hy*y, b.vy*y)
-
-
-@finished.of(Fluxes)
-def _(term, a, sums):
-    xx_x, xy_x, hx_x, u_x, x, _, _, v_x, _, xy_y, _, u_y, y, yy_y, hy_y, v_y = sums
-    sent, own = (xx_x + xy_y, xy_x + yy_y), (a.xx*x + a.xy*y, a.xy*x + a.yy*y)
-    heat = a.hx*x + a.hy*y + hx_x + hy_y + 0.5*(a.xx*u_x + a.xy*(u_y + v_x) + a.yy*v_y)
-    work = a.vx*(own[0] + 0.5*sent[0]) + a.vy*(own[1] + 0.5*sent[1])
-    return -own[0] - sent[0], -own[1] - sent[1], work - heat
 
 
 class DirectFluxes(NamedTuple):

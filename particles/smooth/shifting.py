@@ -82,13 +82,14 @@ class DeltaPlus(Led):
     numbers = np.dtype([*DirectState.descr,
                         *((name, "f8") for name in "V rho P e c per_w dx dy gx gy".split())])
     vectors = (("dx", "dy"), ("gx", "gy"))
+    columns = 5
 
     def __init__(self, method: Any, n: int, threads: Threads):
         super().__init__(method, n, threads)
         if held := [wall for wall in method.walls if type(wall) in fixed_points.kinds]:
             raise ValueError(f"{type(held[0]).__name__} holds particles whose density no continuity gives: "
                              "take images behind the plates")
-        self.pull, self.uneven, self.U = np.zeros((n, 5)), np.empty((n, 7)), 0.0
+        self.uneven, self.U = np.empty((n, 7)), 0.0
 
     @classmethod
     def complete(cls, state: np.ndarray, rho: Any, m: float) -> np.ndarray:

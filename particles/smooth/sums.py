@@ -16,9 +16,8 @@ from continuum.fluid import (
 )
 from continuum.jit import formula, jit
 from particles.lists import Listed, PairLists, unphysical
-from particles.neighbours import u64
-from particles.pairs import Pairs, store, sweep
-from particles.terms import DirectFluxes, Fluxes, finished, summand
+from particles.pairs import Pairs, sweep
+from particles.terms import DirectFluxes, Fluxes, finish, summand
 from particles.threads import Threads
 from particles.walls import image_flux, image_pressure
 
@@ -40,16 +39,17 @@ class SmoothSums(Listed, ABC):
 
     places : rows of a state that are positions; `velocity` : their rates, for integrators that step them
     apart. symbol : of what stands for the wave number squared in `particles.limits.Symbols`.
-    of_state : names of its rows.
+    of_state : names of its rows. columns : of the third sum, before its records finish it.
     """
     places = 2
     of_state: ClassVar[tuple[str, ...]] = ("x", "y", "vx", "vy", "e")
     symbol: ClassVar[str]
+    columns: ClassVar[int] = 3
 
     def __init__(self, method: Any, n: int, threads: Threads):
         self.method, self.threads, self.n = method, threads, n
         self.around = PairLists(method.weight, method.walls, n, method.box, skin=method.skin, threads=threads)
-        self.slopes, self.pull = np.zeros((self.around.rows, 8)), np.zeros((n, 3))
+        self.slopes, self.pull = np.zeros((self.around.rows, 8)), np.zeros((n, self.columns))
         self.less, self.moving = np.empty(0), np.empty(0, Moving)
 
     @classmethod
@@ -82,9 +82,10 @@ class SmoothSums(Listed, ABC):
     def exchange(self, less: np.ndarray) -> tuple[Any, np.ndarray]:
         """Term and records of the third sum, from what `prepare` made, with the pressures `less`."""
 
-    def push(self, less: np.ndarray, pairs: Pairs, out: np.ndarray) -> None:
-        """Third sum over some pairs: acceleration and heating."""
-        self.threads(sweep, self.n, *self.exchange(less), pairs, out)
+    def push(self, state: np.ndarray, less: np.ndarray, pairs: Pairs, out: np.ndarray) -> None:
+        """d(x, y, vx, vy, e)/dt by some pairs alone, written to `out`: the third sum."""
+        self.threads(sweep, self.n, *self.exchange(less), pairs, self.pull)
+        self.threads(_pushed, self.n, state, self.pull, out)
 
     def prepare(self, state: np.ndarray) -> None:
         """What the third sum needs."""
@@ -93,8 +94,8 @@ class SmoothSums(Listed, ABC):
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
         """d(x, y, vx, vy, e)/dt of a state (5, n), written to `out`."""
         self.prepare(state)
-        self.push(self.less, self.around.pairs, self.pull)
-        self.threads(_rates, self.n, state, self.pull, self.around.rho, self.slopes, self.method.g,
+        self.push(state, self.less, self.around.pairs, out)
+        self.threads(_weighed, self.n, state, self.around.rho, self.slopes, self.method.g,
                      self.method.static, out)
 
     def velocity(self, state: np.ndarray) -> np.ndarray:
@@ -118,7 +119,7 @@ class SmoothSums(Listed, ABC):
         around, kind = self.around, self.method.gradients
         self.threads(_moving, len(around.x), kind, around.vx, around.vy, around.T, around.rho, self.moving)
         self.threads(sweep, around.rows, kind, self.moving, around.pairs, self.slopes)
-        self.threads(_finish, around.rows, kind, self.moving, self.slopes, self.slopes)
+        self.threads(_finish, around.rows, kind, self.moving, self.slopes)
 
     @property
     def gradient(self) -> np.ndarray:
@@ -129,15 +130,16 @@ class SmoothSums(Listed, ABC):
 class Nested(SmoothSums):
     """Stress and heat flux from gradients of the second sum, divergence in the third    [KHP95, Sec. II]"""
     symbol = "nested"
+    columns = 16
 
     def allocate(self, points: int) -> None:
         super().allocate(points)
-        self.flux, self.products = aligned(points, Flux), np.empty((self.n, 16))
+        self.flux = aligned(points, Flux)
         self.flux["one"] = 1
 
-    def push(self, less: np.ndarray, pairs: Pairs, out: np.ndarray) -> None:
-        super().push(less, pairs, self.products)
-        self.threads(_finish, self.n, Fluxes(), self.flux, self.products, out)
+    def push(self, state: np.ndarray, less: np.ndarray, pairs: Pairs, out: np.ndarray) -> None:
+        self.threads(sweep, self.n, *self.exchange(less), pairs, self.pull)
+        self.threads(_closed, self.n, state, self.flux, self.pull, out)
 
     def exchange(self, less: np.ndarray) -> tuple[Any, np.ndarray]:
         around = self.around
@@ -209,9 +211,9 @@ def _moving(first, last, kind, vx, vy, T, rho, moving):
 
 
 @jit
-def _finish(first, last, term, records, sums, out):
-    for i in range(u64(first), u64(last)):
-        store(out, i, u64(0), finished(term, records[i], sums[i]))
+def _finish(first, last, kind, moving, slopes):
+    for i in range(first, last):
+        finish(kind, moving[i], slopes[i])
 
 
 @jit
@@ -262,11 +264,29 @@ def sound(first, last, eos, rho, T, records):
 
 
 @jit
-def _rates(first, last, state, pull, rho, slopes, g, static, out):
-    """Rates of the particles, with support and work of what pressure the pair sums leave out."""
+def _pushed(first, last, state, pull, out):
     for i in range(first, last):
         out[0, i], out[1, i] = state[2, i], state[3, i]
-        out[2, i], out[3, i], out[4, i] = pull[i, 0], pull[i, 1] - g, pull[i, 2]
+        out[2, i], out[3, i], out[4, i] = pull[i, 0], pull[i, 1], pull[i, 2]
+
+
+@jit
+def _closed(first, last, state, flux, pull, out):
+    """The same of what partners bring, times x in columns 0:8 and y in 8:16, and of what is a particle's own."""
+    for i in range(first, last):
+        a, p, x, y = flux[i], pull[i], pull[i, 4], pull[i, 12]
+        own_x, own_y, sent_x, sent_y = a.xx*x + a.xy*y, a.xy*x + a.yy*y, p[0] + p[9], p[1] + p[13]
+        heat = a.hx*x + a.hy*y + p[2] + p[14] + 0.5*(a.xx*p[3] + a.xy*(p[7] + p[11]) + a.yy*p[15])
+        work = a.vx*(own_x + 0.5*sent_x) + a.vy*(own_y + 0.5*sent_y)
+        out[0, i], out[1, i] = state[2, i], state[3, i]
+        out[2, i], out[3, i], out[4, i] = -own_x - sent_x, -own_y - sent_y, work - heat
+
+
+@jit
+def _weighed(first, last, state, rho, slopes, g, static, out):
+    """Add gravity, and support and work of what pressure the pair sums leave out."""
+    for i in range(first, last):
+        out[3, i] -= g
     if static.fraction != 0:
         for i in range(first, last):
             out[3, i] += g*static.fraction*static.rho0/rho[i]
