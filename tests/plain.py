@@ -7,7 +7,7 @@ by one.
 from typing import Any, NamedTuple
 
 import numpy as np
-from plain_meshless import FACES, nearing
+from plain_meshless import FACES, everywhere, nearing
 
 from continuum.fluid import conductivity, energy, pressure, temperature, viscosity
 from particles.smooth.adiabatic import AdiabaticMfm
@@ -247,15 +247,9 @@ def corrected_gradients(method: Spam, p: Points, grad_w):
 
 def corrected(method: Spam, p: Points, grad_w, grad_v, grad_T):
     """Pressure over A and C, made of gradients times B; friction along pairs, and tau of corrected slopes."""
-    n, (a, c, everywhere) = len(grad_w), AREAS[method.transport]
+    n, (a, c, in_friction) = len(grad_w), AREAS[method.transport]
     d, dv, dT = (q[None] - q[:n, None] for q in (p.x, p.v, p.T))
-    B, slope = np.zeros((2, len(p.x), 2, 2))
-    B[:n], slope[:n] = inverse(method, p, grad_w), grad_v
-    for i, image in enumerate(p.made):
-        if image is not None:
-            plate = isinstance(image.wall, Mirror)
-            R = np.diag([-1.0 if plate and axis == image.wall.axis else 1.0 for axis in (0, 1)])
-            B[i], slope[i] = R@B[image.of]@R, (-R if plate else R)@slope[image.of]
+    B, slope = everywhere(p, inverse(method, p, grad_w), 2), everywhere(p, grad_v, 1, True)
     eta, k = (np.array([f(method.law, rho, T) for rho, T in zip(p.rho, p.T)])
               for f in (viscosity, conductivity))
     div = np.trace(slope, axis1=1, axis2=2)[:, None, None]
@@ -270,7 +264,7 @@ def corrected(method: Spam, p: Points, grad_w, grad_v, grad_T):
         C = A
     r2, halves = (d**2).sum(axis=2), np.trace(B, axis1=1, axis2=2)/2
     F = f*np.einsum("ija,ija->ij", d, grad_w)/np.where(r2 > 0, r2, 1)
-    F *= (halves[:n, None] + halves[None])/2 if everywhere else 1
+    F *= (halves[:n, None] + halves[None])/2 if in_friction else 1
     rub = ((eta[:n, None] + eta[None])*F)[:, :, None]*dv
     rub += np.einsum("ija,ijab->ijb", (A + C)/2, tau[:n, None] + tau[None])
     work = work + 0.5*(rub*dv).sum(axis=2)

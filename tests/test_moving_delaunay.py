@@ -251,16 +251,6 @@ def test_a_triangle_that_turns_over_ends_a_run_with_the_place_and_the_way_out():
         run(replace(method, shift=0.0), start, Plan(dt=dt, steps=5000))
 
 
-def test_a_checkpoint_of_another_triangulation_is_refused(tmp_path):
-    path = tmp_path/"run.h5"
-    one, start, dt = ready(SCENES["taylor-green"](rows=8), "moving-delaunay", seed=1)
-    other, _, _ = ready(SCENES["taylor-green"](rows=8), "moving-delaunay", seed=2)
-    plan = Plan(dt=dt, steps=40, checkpoint=path, checkpoint_seconds=0.0)
-    run(one, start, plan)
-    with pytest.raises(ValueError, match="is of other parameters"):
-        run(other, start, plan)
-
-
 def test_an_insulated_side_that_slides_does_its_work_and_no_energy_is_lost():
     scene = Domain(L=8.0, aspect=2.0, eta=0.1, k=0.1, left=Periodic(), right=Periodic(), top=Sliding(0.1))
     method, state, dt = ready(scene, "moving-delaunay")
@@ -272,8 +262,3 @@ def test_an_insulated_side_that_slides_does_its_work_and_no_energy_is_lost():
     # the sum over steps is of first order in the step, the plate starts with a jump
     assert state[8].sum() - before == pytest.approx(sum(work), rel=0.02)
     assert sum(work) > 0
-
-
-def test_a_lid_is_refused_that_slides_into_a_corner():
-    with pytest.raises(ValueError, match=r"cannot take top = Sliding\(v=0\.1.*take grid"):
-        ready(Domain(L=8.0, eta=0.1, k=0.1, top=Sliding(0.1)), "moving-delaunay")
