@@ -1,13 +1,13 @@
 """The slow readable twin of `particles`: KHP95's sums as numpy double sums, without lists or cells.
 
 It shares only the NamedTuples that describe a scene with particles/; every formula here is written a second
-time, weights as they are printed (r in units of sigma, range 3 sigma), walls as images of all particles, one
-by one.
+time, weights as they are printed, walls as images of all particles, one by one.
 """
 from typing import Any, NamedTuple
 
 import numpy as np
-from plain_meshless import FACES, nearing
+from plain_meshless import FACES, everywhere, nearing
+from plain_weights import PRINTED
 
 from continuum.fluid import conductivity, energy, pressure, temperature, viscosity
 from particles.smooth.adiabatic import AdiabaticMfm
@@ -20,36 +20,6 @@ from particles.terms import ArithmeticGradients
 from particles.walls.fixed import FixedRows
 from particles.walls.mirror import Mirror, Odd, Own
 from particles.walls.periodic import Shift
-from particles.weights import Lucy, Monaghan, WendlandC2, WendlandC4, WendlandC6
-
-# --- weights in 2D: w(r) and dw/dr inside of the range -----------------------------------------------------
-
-
-def lucy(r, h):
-    s, sigma = 3*r/h, h/3
-    A = 5/(9*np.pi*sigma**2)
-    return A*(1 + s)*(1 - s/3)**3, A/sigma*((1 - s/3)**3 - (1 + s)*(1 - s/3)**2)
-
-
-def monaghan(r, h):
-    s, sigma = 3*r/h, h/3
-    A, inner = 40/(63*np.pi*sigma**2), s < 1.5
-    w = np.where(inner, A*(1 - 2/3*s**2 + 2/9*s**3), 2*A*(1 - s/3)**3)
-    return w, np.where(inner, A/sigma*(-4/3*s + 2/3*s**2), -2*A/sigma*(1 - s/3)**2)
-
-
-def wendland(norm, power, *c):
-    """norm/h^2 (1 - q)^power (c0 + c1 q + ...)."""
-    def weight(r, h):
-        q, poly = r/h, np.polynomial.Polynomial(c)
-        w = norm/h**2*(1 - q)**power*poly(q)
-        return w, norm/h**3*((1 - q)**power*poly.deriv()(q) - power*(1 - q)**(power - 1)*poly(q))
-    return weight
-
-
-PRINTED = {Lucy: lucy, Monaghan: monaghan, WendlandC2: wendland(7/np.pi, 4, 1, 4),
-           WendlandC4: wendland(9/np.pi, 6, 1, 6, 35/3), WendlandC6: wendland(78/(7*np.pi), 8, 1, 8, 25, 32)}
-
 
 # --- points: particles, fixed particles, images -----------------------------------------------------------
 
@@ -247,15 +217,9 @@ def corrected_gradients(method: Spam, p: Points, grad_w):
 
 def corrected(method: Spam, p: Points, grad_w, grad_v, grad_T):
     """Pressure over A and C, made of gradients times B; friction along pairs, and tau of corrected slopes."""
-    n, (a, c, everywhere) = len(grad_w), AREAS[method.transport]
+    n, (a, c, in_friction) = len(grad_w), AREAS[method.transport]
     d, dv, dT = (q[None] - q[:n, None] for q in (p.x, p.v, p.T))
-    B, slope = np.zeros((2, len(p.x), 2, 2))
-    B[:n], slope[:n] = inverse(method, p, grad_w), grad_v
-    for i, image in enumerate(p.made):
-        if image is not None:
-            plate = isinstance(image.wall, Mirror)
-            R = np.diag([-1.0 if plate and axis == image.wall.axis else 1.0 for axis in (0, 1)])
-            B[i], slope[i] = R@B[image.of]@R, (-R if plate else R)@slope[image.of]
+    B, slope = everywhere(p, inverse(method, p, grad_w), 2), everywhere(p, grad_v, 1, True)
     eta, k = (np.array([f(method.law, rho, T) for rho, T in zip(p.rho, p.T)])
               for f in (viscosity, conductivity))
     div = np.trace(slope, axis1=1, axis2=2)[:, None, None]
@@ -270,7 +234,7 @@ def corrected(method: Spam, p: Points, grad_w, grad_v, grad_T):
         C = A
     r2, halves = (d**2).sum(axis=2), np.trace(B, axis1=1, axis2=2)/2
     F = f*np.einsum("ija,ija->ij", d, grad_w)/np.where(r2 > 0, r2, 1)
-    F *= (halves[:n, None] + halves[None])/2 if everywhere else 1
+    F *= (halves[:n, None] + halves[None])/2 if in_friction else 1
     rub = ((eta[:n, None] + eta[None])*F)[:, :, None]*dv
     rub += np.einsum("ija,ijab->ijb", (A + C)/2, tau[:n, None] + tau[None])
     work = work + 0.5*(rub*dv).sum(axis=2)

@@ -5,12 +5,15 @@ from functools import cache, partial
 import numpy as np
 import pytest
 
+from continuum.domain import Domain
 from continuum.fluid import ConstEta
 from continuum.scene import Periodic, RayleighBenard, Walls
+from continuum.sides import Plate
 from particles.fields import kinetic_energy
 from particles.method import Method
 from particles.run import Plan, run
 from studies.build import FAMILIES, METHODS, ready
+from studies.build.measure import heat_at_rest
 from studies.build.scenes import Scene, Sound, TaylorGreen, between_plates
 from studies.build.spam import VARIANTS
 from studies.judge import contract
@@ -72,6 +75,25 @@ def test_plates_slide_for_methods_that_know_how():
     for name in ("moving", "moving-literal"):
         with pytest.raises(ValueError, match=r"cannot take slide = 0\.1: take grid, spam, fixed-lattice"):
             ready(scene, name)
+
+
+BELOW_ONSET = RayleighBenard(ra=100.0, L=8.0)
+BOX_OF_PLATES = Domain(L=8.0, eta=0.5, k=0.5, bottom=Plate(T=1.2), top=Plate(T=1.0))
+
+
+@pytest.mark.parametrize("name, scene", [
+    *((name, BELOW_ONSET) for name in (
+        "fixed-lattice", "fixed-lattice-nested", "fixed-random-plates",
+        "fixed-jittered-plates-entropy-stable", "moving", "moving-delaunay",
+        "moving-delaunay-entropy-stable")),
+    ("moving-delaunay", BOX_OF_PLATES)])
+def test_heat_goes_in_below_and_out_above_at_rest(name, scene):
+    """Nu of conduction is 1, but for what is left of the start; corners of a box are their plates'."""
+    method, start, dt = ready(scene, name)
+    steps = round(300/dt)
+    done = run(method, start, Plan(dt=dt, steps=steps, series=METHODS[name].series, every=steps))
+    through = [done.series[side][-1]/heat_at_rest(scene) for side in ("lower", "upper")]
+    assert through == pytest.approx([1, -1], abs=1e-3)
 
 
 def test_a_scene_that_a_method_cannot_take_is_refused():

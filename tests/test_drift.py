@@ -16,7 +16,7 @@ from particles.integral.interpolants import OrderingWarning
 from particles.integral.layer import Layer, LayerSums
 from particles.integral.points import jittered, lattice
 from particles.integral.rr98_moving import Drift
-from particles.integral.rr98_moving_plain import MOTIONS, ConstantMass, Powers, scale_of
+from particles.integral.rr98_moving_plain import MOTIONS, Powers, scale_of
 from particles.integral.transposed_stress import MENDED
 from particles.integrators import RK4
 from particles.limits import limit_of
@@ -72,26 +72,20 @@ def alike(found, expected):
 
 @pytest.mark.parametrize("mended", [False, True])
 @pytest.mark.parametrize("law", [LAW, PowerLaw(0.3, 0.2, 0.5, 1.0)], ids=["const-eta", "power-law"])
-@pytest.mark.parametrize(("kind", "eos"), [
-    *((kind, IdealGas()) for kind in DRIFTS), ("constant-mass", VanDerWaals())])
-def test_compiled_sums_are_those_of_the_slow_twin(kind, eos, law, mended):
-    fast = drift(kind, eos=eos, law=law, transport=MENDED if mended else PRINTED)
+@pytest.mark.parametrize(("kind", "eos", "more"), [
+    *((kind, IdealGas(), {}) for kind in DRIFTS), ("constant-mass", VanDerWaals(), {}),
+    *(("constant-mass", IdealGas(), {"bracket": Powers(a, b)}) for a, b in ((0, 0), (1, -1), (0.5, 1)))])
+def test_compiled_sums_are_those_of_the_slow_twin(kind, eos, more, law, mended):
+    motion = ConstantMassDrift(**more) if more else kind
+    fast = drift(motion, eos=eos, law=law, transport=MENDED if mended else PRINTED)
     slow = MOTIONS[kind](box=COUNTS, weight=WEIGHT, eos=eos, law=law, scale=SCALE,
-                         transport=Pairwise(mended=mended))
+                         transport=Pairwise(mended=mended), **more)
     state = shaken(fast)
     given = slow.state(AT.x, *random_fields(AT.n))
     given[TWIN] = state
     alike(rates(fast, state), rates(slow, given)[TWIN])
     assert fast.names == tuple(slow.names[row] for row in TWIN)
     np.testing.assert_allclose(conserved(fast, state)[[0, 3]], slow.conserved(given)[[0, 3]], rtol=1e-13)
-
-
-@pytest.mark.parametrize("bracket", [Powers(), Powers(1.0, -1.0), Powers(0.5, 1.0)])
-def test_equation_50_is_that_of_the_slow_twin(bracket):
-    fast = drift(ConstantMassDrift(bracket))
-    slow = ConstantMass(box=COUNTS, weight=WEIGHT, eos=IdealGas(), law=LAW, scale=SCALE, bracket=bracket)
-    given, state = slow.state(AT.x, *random_fields(AT.n)), fast.state(AT.x, *random_fields(AT.n))
-    alike(rates(fast, state), rates(slow, given)[TWIN])
 
 
 @pytest.mark.parametrize("mended", [False, True])

@@ -22,7 +22,6 @@ from particles.integral.entropy_stable import Positive, StableLayer
 from particles.integral.exchange import Pressure
 from particles.integral.points import random
 from particles.integral.triangulation import delaunay
-from particles.run import Plan, run
 from particles.threads import Threads
 from studies.build import SCENES, ready
 from studies.hardcases.robust import PROBLEMS, Strip
@@ -168,17 +167,6 @@ def test_a_vortex_is_not_taken_for_a_shock():
     v = method.fields(start).v.T
     lost, energy = -np.sum(v*p - v**2*rho/2), np.sum(start[1:3]*v)/2
     assert 0 < lost*scene.L/scene.speed < 1e-4*energy
-
-
-def test_smooth_flow_is_of_second_order():
-    errors = []
-    for rows in (12, 24):
-        scene = SCENES["taylor-green"](rows)
-        method, start, dt = ready(scene, "fixed-lattice-entropy-stable")
-        steps = int(scene.time/dt) + 1
-        at = method.fields(run(method, start, Plan(dt=scene.time/steps, steps=steps)).state)
-        errors.append(np.sqrt(np.mean((at.v[:, 0] - scene.answer(at.x)["vx"])**2)))
-    assert np.log2(errors[0]/errors[1]) > 1.9
 
 
 def test_fluids_without_an_entropy_and_plates_that_slide_are_refused():

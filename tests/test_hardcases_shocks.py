@@ -117,15 +117,6 @@ def test_every_method_has_sods_waves_and_the_gas_that_it_began_with(method):
         assert inner == pytest.approx(EOS.cv*(DENSE.P + THIN.P), rel=max(loose, 1e-4))
 
 
-def test_nothing_happens_in_a_uniform_gas(monkeypatch):
-    """The same pressure and density everywhere stay, on disordered points too."""
-    monkeypatch.setattr("studies.hardcases.tubes.THIN", DENSE)
-    for method in [name for name in IN_TUBES if name != "grid"]:
-        (_, v, P), _ = seen(method, 0.0)
-        np.testing.assert_allclose(v, 0, atol=1e-9)
-        np.testing.assert_allclose(P, DENSE.P, rtol=1e-9)
-
-
 def test_wiggles_are_the_variation_beyond_the_exact_one():
     v = exact(SHORT, centres(SHORT))[1]
     assert wiggles(v, v) == 0 and wiggles(v + 0.1*(-1)**np.arange(2*SHORT), v) > 1

@@ -12,6 +12,8 @@ from studies.cost import STUDY as cost
 from studies.kit.case import Case, key_of, starts
 from studies.kit.key import CODE, PACKAGES, ROOT, Code
 from studies.kit.syntax import Place, parse
+from studies.rb import STUDY as rb
+from studies.streams import STUDY as streams
 
 QUARTIC = '''
 
@@ -113,12 +115,21 @@ def test_friction_along_edges_is_reached_by_points_and_not_by_smooth_particles(c
     assert not names & {"SpamRun", "SpamGrowth", "CompressibleSteady"}
 
 
+def test_a_flux_that_survives_is_reached_by_methods_that_list_it_alone():
+    """One case a class and method of studies that try all methods."""
+    tried = [*rb.cases("fine"), *streams.cases("paper"), *cost.cases("paper")]
+    one = {(type(case), repr(getattr(case, "variant", getattr(case, "entry", "")))): case for case in tried}
+    listed = [case for case in one.values() if "entropy-stable" in case.label]
+    assert len(one) > 100 and len(listed) > 1
+    flux = "particles.integral.entropy_fluxes", "Dissipation"
+    assert [case for case in one.values() if reached(case, *flux)] == listed
+
+
 def test_a_new_variant_adds_cases_and_leaves_those_there_are(monkeypatch):
     from studies.build.spam import VARIANTS, Variant
-    from studies.rb import STUDY
-    before = {case.key for case in STUDY.cases("fine")}
+    before = {case.key for case in rb.cases("fine")}
     monkeypatch.setitem(VARIANTS, "new", Variant("new", h=7.0))
-    assert before < {case.key for case in STUDY.cases("fine")}
+    assert before < {case.key for case in rb.cases("fine")}
 
 
 # --- in a small one -------------------------------------------------------------------------------

@@ -15,10 +15,8 @@ from particles.integral.exchange import Pressure
 from particles.integral.moving_stable import StableDelaunay
 from particles.integral.positive import switched
 from particles.pairs import sweep
-from particles.run import Plan, run
 from particles.threads import Threads
-from studies.build import SCENES, ready, variant
-from studies.build.measure import heat_at_rest
+from studies.build import SCENES, ready
 
 GAS, NAME, ONE = IdealGas(2.5), "moving-delaunay-entropy-stable", Threads(1)
 EX, EC = (Logarithmic(GAS), Pressure(GAS)), (Logarithmic(GAS), MeanPressure(GAS))
@@ -71,42 +69,6 @@ def test_slopes_of_linear_fields_are_exact_on_sides_too():
     sums = made.start(len(y), ONE)
     sums.look_at(state)
     assert np.allclose(sums.points["rho_y"], 0.1) and np.allclose(sums.points["rho_x"], 0, atol=1e-13)
-
-
-def vortex(rows, name):
-    """The error of a velocity after a decay."""
-    scene = SCENES["taylor-green"](rows)
-    made, start, dt = ready(scene, name)
-    steps = int(scene.time/dt) + 1
-    at = made.fields(run(made, start, Plan(dt=scene.time/steps, steps=steps)).state)
-    return np.sqrt(np.mean((at.v[:, 0] - scene.answer(at.x)["vx"])**2))
-
-
-def test_a_smooth_flow_is_of_second_order_and_as_without():
-    coarse, fine = vortex(12, NAME), vortex(24, NAME)
-    assert np.log2(coarse/fine) > 1.6
-    assert fine < 1.05*vortex(24, "moving-delaunay")
-
-
-def test_heat_goes_in_below_and_out_above_at_rest():
-    layer = RayleighBenard(ra=100.0, L=8.0)
-    made, start, dt = ready(layer, NAME)
-    done = run(made, start, Plan(dt=dt, steps=1500, series=variant(NAME).series, every=100))
-    through = [done.series[name][-1]/heat_at_rest(layer) for name in ("lower", "upper")]
-    assert through == pytest.approx([1, -1], abs=1e-3)      # what is left of the start
-
-
-def test_a_stream_that_carries_all_changes_nothing():
-    scene = SCENES["taylor-green"](8)
-    made, _, dt = ready(scene, NAME)
-    made = replace(made, law=ConstEta(0, 0))
-    rho, T = np.exp(0.5*np.random.default_rng(3).normal(size=(2, len(made.x))))
-    v = np.zeros_like(made.x)
-    ends = [made.state(rho, v + boost, T) for boost in ([0.0, 0.0], [4.0, 3.0])]
-    for state in ends:
-        made.start(len(rho), ONE).march(state, dt, 20)
-    rest, stream = (made.fields(state) for state in ends)
-    assert np.allclose(stream.v - [4.0, 3.0], rest.v, atol=1e-9) and np.allclose(stream.T, rest.T, atol=1e-9)
 
 
 def test_a_fluid_without_an_entropy_is_refused_and_an_end_names_its_point():

@@ -100,19 +100,6 @@ def test_literal_sums_are_those_of_the_code():
     np.testing.assert_allclose(gathered(w, 0.4*inner(w, T)), conduction, rtol=0, atol=1e-12)
 
 
-def test_brackets_are_weights_times_directions():
-    """W(r_ij) e_ij with e_ij from j to i [Eq. 33], by a double loop."""
-    at, weight = jittered((6, 6), 0.2, 4), Lucy.of(h=2.4)
-    expected = np.zeros((2, at.n, at.n))
-    for i, j in np.ndindex(at.n, at.n):
-        apart = -at.separation(i, j)
-        r = np.sqrt(apart@apart)
-        if 0 < r < 2.4:
-            expected[:, i, j] = W(weight, np.array([r]))[0]*at.V[j]*apart/r
-    for M, there in zip(brackets(plain(at, weight)), expected, strict=True):
-        np.testing.assert_allclose(M.toarray(), there, rtol=0, atol=1e-15)
-
-
 def test_spectral_derivatives_are_exact():
     phase = 2*np.pi*lattice((12, 12), 1/12).x@np.array([1, 2]) + 0.3
     slope = 2*np.pi*np.cos(phase)[:, None]*[1, 2]

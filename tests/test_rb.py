@@ -111,15 +111,15 @@ def test_the_error_of_the_step_is_that_of_the_same_ra(ra, change):
     assert step_change(step_changes(pd.DataFrame(runs)), {**known, "ra": ra})["ke"] == pytest.approx(change)
 
 
-def one(tmp_path, scheme="fixed-lattice", rows=8, ra=1e4, **more):
-    case = DihRun(scene=RayleighBenard(ra=ra, L=float(rows)), variant=SCHEMES[scheme], **more)
+def one(tmp_path, rows):
+    case = DihRun(scene=RayleighBenard(ra=1e4, L=float(rows)), variant=SCHEMES["fixed-lattice"])
     [row] = case.run(lambda done: None, tmp_path).rows["kinetic_energy"]
     return row
 
 
 def test_energy_falls_to_its_limit_as_the_square_of_the_spacing(tmp_path):
     """8, 12, 16 rows: two pairs give one limit to 1 %, the rest of fourth order; 0.4891e-2 is the grid's."""
-    found = {rows: one(tmp_path/str(rows), rows=rows) for rows in (8, 12, 16)}
+    found = {rows: one(tmp_path/str(rows), rows) for rows in (8, 12, 16)}
     for row in found.values():
         assert row["converged"] and row["rolls"] == 2 and abs(row["mass_drift"]) < 1e-13
         assert row["nu_err"] < 0.003*row["nu"]      # both plates and the change of the last tenth of the time
@@ -127,14 +127,6 @@ def test_energy_falls_to_its_limit_as_the_square_of_the_spacing(tmp_path):
     limits = [(K[b]*b**2 - K[a]*a**2)/(b**2 - a**2) for a, b in ((8, 12), (12, 16))]
     assert limits[1] == pytest.approx(limits[0], rel=0.03)
     assert limits[1] == pytest.approx(0.004891, rel=0.005)
-
-
-@pytest.mark.parametrize(("scheme", "within"), [
-    ("fixed-lattice", 1e-6), ("fixed-lattice-nested", 1e-6),
-    ("fixed-random-plates", 1e-3)])     # weak currents where hydrostatic pressure bends between points
-def test_heat_through_plates_is_conduction_at_rest(tmp_path, scheme, within):
-    """Far below onset the layer comes to rest: Nu = 1 on a lattice exactly, whatever the share."""
-    assert one(tmp_path, scheme, ra=200.0, t_end=200.0)["nu"] == pytest.approx(1, abs=within)
 
 
 def test_rolls_are_twice_the_strongest_harmonic():

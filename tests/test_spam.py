@@ -13,7 +13,7 @@ from continuum.fluid import EQUATIONS_OF_STATE, ConstEta, ConstNu, DenseFluid, I
 from continuum.scene import RayleighBenard
 from particles.smooth.adiabatic import AdiabaticMfm
 from particles.smooth.corrected import AllCorrected, Corrected, Reversed, Symmetrised
-from particles.smooth.meshless import Crksph, Mfm, limited, reproducing
+from particles.smooth.meshless import Crksph, Mfm, reproducing
 from particles.smooth.riemann import LowDissipationSums
 from particles.smooth.spam import LessStatic, Spam
 from particles.smooth.sums import Direct, Nested
@@ -214,15 +214,6 @@ def test_reproducing_kernels_and_their_gradients_are_exact_on_linear_fields():
     for f, along_x, along_y in ((1 + 0*x, 0, 0), (x, 1, 0), (y, 0, 1)):
         assert abs(here@f - f[:n]).max() < 1e-12
         assert abs(gx@f - along_x).max() < 1e-12 and abs(gy@f - along_y).max() < 1e-12
-
-
-def test_reconstructed_values_stay_near_both_and_are_the_mean_where_fields_are_linear():
-    pairs = np.random.default_rng(1).uniform(-1, 1, (200, 2))
-    for own, other in (*pairs, (0.3, 0.3)):
-        mean, d = (own + other)/2, abs(own - other)
-        low, high = (own - d/2, mean + d/4) if own < other else (mean - d/4, own + d/2)
-        assert limited(own, other, mean) == mean
-        assert limited(own, other, 50.0) == high and limited(own, other, -50.0) == low
 
 
 def test_walls_at_rest_do_no_work_on_a_riemann_problem():

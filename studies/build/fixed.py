@@ -52,7 +52,7 @@ class Scheme(NamedTuple):
 
     size : of the points' disorder, in spacings. share : of transport along edges.
     held : plates are rows of points that are held, in place of mirror images behind them.
-    kind : of a fluid between mirrors.
+    kind : of a fluid between mirrors. lacks : what it does not take of a scene, empty for nothing.
     """
     name: str
     make: Callable = renormalised
@@ -64,9 +64,10 @@ class Scheme(NamedTuple):
     points: Callable = positions
     held: bool = False
     kind: Any = Layer
+    lacks: Callable[[Any], str] = no_layer
 
     def refuses(self, scene: Any) -> str:
-        return sticking(scene) if self.held and isinstance(scene.sides, Sides) else REFUSES[self.kind](scene)
+        return sticking(scene) if self.held and isinstance(scene.sides, Sides) else self.lacks(scene)
 
     def ready(self, scene: Any, seed: int = 1, fields: tuple | None = None) -> Ready:
         method = fluid(scene, self, seed)
@@ -78,8 +79,6 @@ class Scheme(NamedTuple):
         return {"ke": kinetic, "lower": partial(heat, plate=0), "upper": partial(heat, plate=1)}
 
 
-#: what a kind of fluid between mirrors does not take of a scene
-REFUSES = {Layer: no_layer, StableLayer: no_still_layer}
 SCHEMES = {s.name: s for s in (
     Scheme("fixed-lattice"),
     Scheme("fixed-lattice-printed-heat", mended=False),     # Eq. 51, heated by its forces alone
@@ -99,8 +98,9 @@ SCHEMES = {s.name: s for s in (
     Scheme("fixed-jittered-exact", exact, WendlandC2, 3.0, 0.3),
     Scheme("fixed-jittered-closed", closed, WendlandC2, 3.0, 0.3),
     Scheme("fixed-jittered-plain", plain, WendlandC2, 3.0, 0.3),
-    Scheme("fixed-lattice-entropy-stable", kind=StableLayer),
-    Scheme("fixed-jittered-delaunay-entropy-stable", delaunay, size=0.3, kind=StableLayer),
+    Scheme("fixed-lattice-entropy-stable", kind=StableLayer, lacks=no_still_layer),
+    Scheme("fixed-jittered-delaunay-entropy-stable", delaunay, size=0.3, kind=StableLayer,
+           lacks=no_still_layer),
 )}
 
 

@@ -12,7 +12,7 @@ from particles.integral.points import of_positions
 from particles.integral.stream import Stream
 from particles.integral.triangulation import around, delaunay
 from studies.build.fixed import OF_LIMIT, Scheme
-from studies.build.setting import CannotTake, Ready, check_spacings, shifted, stepped
+from studies.build.setting import CannotTake, Ready, check_spacings, no_still_layer, shifted, stepped
 
 #: kinds with the flux
 WITH_FLUX: dict[type, type] = {Stream: StableStream, Layer: StableLayer}
@@ -67,7 +67,7 @@ class Around(NamedTuple):
 
 
 STABLE = {one.name: one for one in (
-    Blended("fixed-lattice-entropy-stable-blended", kind=StableLayer),
+    Blended("fixed-lattice-entropy-stable-blended", kind=StableLayer, lacks=no_still_layer),
     StablePlates("fixed-jittered-plates-entropy-stable", delaunay, size=0.3, held=True),
 )}
 #: those with points on plates, where a scene has a disc in place of plates

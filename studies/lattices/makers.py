@@ -4,24 +4,21 @@ A law with a power is fitted where every run has an excess that is told from non
 q = 1, C the mean excess over friction. The steps to K are those of `loss`; odd images do not slip.
 """
 from collections.abc import Iterator
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
 from scipy.interpolate import PchipInterpolator
 
-from continuum.fluid import ConstEta
 from particles.run import Run
-from particles.smooth.spam import Spam
 from studies.build import spam
-from studies.build.scenes import Tile
 from studies.kit.csvfile import read
 from studies.kit.fits import power_law
 from studies.kit.stats import Measured, with_errors
 from studies.kit.store import RESULTS
 from studies.kit.table import Row, Rows, Tables, groups
 from studies.lattices import loss
-from studies.lattices.stirred import ETA, Driven, Push, Stirred
+from studies.lattices.stirred import Driven, Push, Stirred
 
 MAKERS = ("sph", "riemann", "sumB", "RKGC", "bonet-lok", "corrected", "CRKSPH", "MFM", "MFM-adiabatic")
 RA, FORCES = 10_000.0, (0.1, 0.2, 0.4)
@@ -45,12 +42,8 @@ class StirredMaker(Stirred):
     """Vortices of today's smooth particles."""
 
     @property
-    def method(self) -> Driven:
-        eta = ETA*self.thick*self.rows
-        scene = Tile(width=float(self.width), L=float(self.rows), law=ConstEta(eta, eta))
-        plain = spam.method(scene, self.variant)
-        values = {one.name: getattr(plain, one.name) for one in fields(Spam)}
-        return Driven(**values | {"transport": PUSHED[self.variant.transport]}, mode=self.mode, U=self.U)
+    def pushed(self) -> type:
+        return PUSHED[self.variant.transport]
 
     def row(self, method: Driven, done: Run) -> Row:
         return {**super().row(method, done), "stress": np.nan, "stress_err": np.nan}

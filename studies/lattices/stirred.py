@@ -222,13 +222,18 @@ class Stirred(Case):
         return 0.2 + 7e-7*(1 + 9*self.corrected)*self.variant.h*self.width*self.rows*steps
 
     @property
+    def pushed(self) -> type:
+        """The sums with the force."""
+        along = PushAlong if self.variant.transport is Direct else Push
+        return Corrected if self.corrected else along
+
+    @property
     def method(self) -> Driven:
         eta = ETA*self.thick*self.rows
         kind = Layer if self.mode is PLATES else Tile
         scene = kind(width=float(self.width), L=float(self.rows), law=ConstEta(eta, eta))
         plain = spam.method(scene, self.variant)
-        pushed = Corrected if self.corrected else PushAlong if plain.transport is Direct else Push
-        values = {one.name: getattr(plain, one.name) for one in fields(Spam)} | {"transport": pushed}
+        values = {one.name: getattr(plain, one.name) for one in fields(Spam)} | {"transport": self.pushed}
         return Driven(**values, mode=self.mode, U=self.U)
 
     def run(self, report: Report, folder: Path) -> Outcome:

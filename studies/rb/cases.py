@@ -5,7 +5,6 @@ minute) the same path small, `fine` (hours) all variants, walls, resolutions, an
 """
 from collections.abc import Iterator
 from dataclasses import replace
-from functools import partial
 from itertools import product
 from typing import Any
 
@@ -16,11 +15,10 @@ from studies.build.grid import FORMS
 from studies.build.measure import Smoothing
 from studies.build.spam import PRINTED, STEPS, TODAY, VARIANTS, Variant, variant_of
 from studies.kit.case import Case
-from studies.rb.points import points
+from studies.rb.points import in_space, points
 from studies.rb.runs import grid as truth
 from studies.rb.runs.arithmetic import SUBJECTS, WithoutFlow
 from studies.rb.runs.grid import BoussinesqSteady, CompressibleApproach, CompressibleSteady, PypdeSteady
-from studies.rb.runs.space import InSpace
 from studies.rb.runs.spam import MakerRun, SpamRun
 
 LAYER: dict[str, Any] = {"aspect": 2.0, "sides": Periodic()}     # Fig. 5
@@ -116,16 +114,6 @@ def grids() -> Iterator[Case]:
         yield PypdeSteady(scene=RayleighBenard(ra=ra), sizes=(16, 24, 32, 48))
     yield CompressibleApproach(scene=RayleighBenard(ra=1e4))
     yield gas(1e4, (16, 24, 32, 48), form="paper-form", longest=3.0)    # it loses mass and never settles
-
-
-def in_space() -> Iterator[Case]:
-    """A box of 2:2:1: rolls, which are those of the plane, rolls that others cross, and squares."""
-    lattices = {"rolls": (16, 20, 24, 32), "crossed": (8, 12, 16, 20), "squares": (12, 16, 20, 24)}
-    for start, sizes in lattices.items():
-        # rolls across stronger ones fade by a half in 24 free-fall times
-        case = partial(InSpace, start=start, t_end=200.0 if start == "crossed" else 120.0)
-        yield from (case(scene=RayleighBenard(ra=5e3, L=float(rows))) for rows in sizes)
-        yield from (case(scene=RayleighBenard(ra=5e3), n=n) for n in (13, 15, 17))
 
 
 def layers() -> Iterator[Case]:

@@ -1,5 +1,6 @@
 """Which cases on points: on a lattice, irregular ones, points that move; all of size `fine`."""
 from collections.abc import Iterator
+from functools import partial
 from itertools import product
 
 from continuum.scene import RayleighBenard, Walls
@@ -7,6 +8,7 @@ from studies.build.fixed import SCHEMES
 from studies.build.moving import CARRIAGES, DRIFT_MOTIONS, MOTIONS
 from studies.kit.case import Case
 from studies.rb.runs.points import CarriedRun, DihRun, DriftRun, MovingRun
+from studies.rb.runs.space import InSpace
 
 SEEDS = (1, 2, 3)
 #: rows of the schemes on points that converge; 40 of the others
@@ -65,3 +67,13 @@ def on_points(where: RayleighBenard) -> Iterator[Case]:
     # an error of first order, from the plates, shows in the finest
     finest = SEEDS[:2] if where.ra == 1e4 else ()
     yield from (MovingRun(scene=where, seed=seed) for seed in (SEEDS if where.L <= 64 else finest))
+
+
+def in_space() -> Iterator[Case]:
+    """A box of 2:2:1: rolls, which are those of the plane, rolls that others cross, and squares."""
+    lattices = {"rolls": (16, 20, 24, 32), "crossed": (8, 12, 16, 20), "squares": (12, 16, 20, 24)}
+    for start, sizes in lattices.items():
+        # rolls across stronger ones fade by a half in 24 free-fall times
+        case = partial(InSpace, start=start, t_end=200.0 if start == "crossed" else 120.0)
+        yield from (case(scene=RayleighBenard(ra=5e3, L=float(rows))) for rows in sizes)
+        yield from (case(scene=RayleighBenard(ra=5e3), n=n) for n in (13, 15, 17))

@@ -16,10 +16,11 @@ import numpy as np
 from continuum.fluid import Fields
 from particles.run import Divergence, Plan, run
 from studies.build import variant
+from studies.build.answers import of_one_mass
 from studies.build.grid import Gridded
 from studies.build.setting import Ready
+from studies.build.spam import Variant
 from studies.front.observed import seen
-from studies.front.solving import prepared
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.timing import SPREAD_TO_ERR, median_seconds
 from studies.streams import scenes
@@ -65,11 +66,12 @@ LAYER_RIDERS["spam-less-static-50"] = LAYER_RIDERS["spam"]
 
 @dataclass(frozen=True, kw_only=True)
 class Ride(Case):
-    """A method in a scene."""
+    """A method in a scene. one_mass : its particles have one, and start as dense as the scene."""
     name: str
     scene: Any
     method: str
     variant: Any
+    one_mass: bool
     seed: int = 1
     price: float
 
@@ -91,7 +93,9 @@ class Ride(Case):
         return {"scene": self.name, "method": self.method, "rows": self.scene.L, "stream": self.scene.stream}
 
     def ready(self) -> Ready:
-        return prepared(self.scene, self.variant, self.seed)
+        begun = dict(zip(("x", "fields"), of_one_mass(self.scene, self.seed))) if self.one_mass else {}
+        made = self.variant.ready(self.scene, self.seed, **begun)
+        return made._replace(start=made.start.reshape(len(made.start), -1))
 
     def steps(self, ready: Ready) -> int:
         """To the end of the scene."""
@@ -154,10 +158,11 @@ def of_scene(size: str, name: str) -> Iterator[Ride]:
     """All methods, streams, rows."""
     riders, quick = LAYER_RIDERS if name == "convection" else RIDERS, size == "quick"
     for (method, rider), stream in product(riders.items(), QUICK if quick else STREAMS):
+        chosen = variant(method)
         rows = (rider.fast if stream >= 1 else rider.rows)[:rider.quick if quick else None]
         for L in rows if stream in rider.streams else ():
             common = {"name": name, "scene": SCENES[name](L=L, stream=stream), "method": method,
-                      "variant": variant(method), "price": rider.price}
+                      "variant": chosen, "one_mass": isinstance(chosen, Variant), "price": rider.price}
             for seed in range(1, 2 if quick else 1 + rider.seeds):
                 yield Error(**common, seed=seed)
             yield Seconds(**common, brief=BRIEF[size])

@@ -8,13 +8,13 @@ import pandas as pd
 
 from studies.build.names import as_printed, number
 from studies.kit import fits
-from studies.kit.ask import Value, curve, largest, largest_of, largest_per, last, of, one, rows
+from studies.kit.ask import Value, curve, largest, largest_of, last, of, one, rows
 from studies.kit.claim import Claim
 from studies.kit.stats import CannotTell, Measured
 from studies.kit.table import Tables
 from studies.rb.claims import questions
 from studies.rb.claims.questions import guarded, limit, mean, refuse_dead, rolls
-from studies.rb.tables import SCENE, STILL, besides, grid
+from studies.rb.tables import STILL, besides, grid
 
 DENSE: dict[str, Any] = {"eos": "dense"}
 LONG = 20.0         # L^2/eta: "very long times"
@@ -26,9 +26,7 @@ LAST_DIGIT = 5e-6   # half of it, of the printed K
 GRIDS = besides(grid(1e4), "resolution")        # of all resolutions, Ra 10 000
 PAPER_FORM = GRIDS | {"variant": "paper-form"}
 SEVERAL = "1800 <= 2*resolution**2 <= 5000"     # cells
-LIMITS = {"gas": "variant == 'flux-form'", "boussinesq": "variant == 'mac'"}    # kind -> grids
 SPECTRAL = grid(1e4, 28) | {"method": "spectral-gas", "variant": ""}
-HIGH = (5e3, 6e3, 6830.0, 1e4, 2e4)     # Ra at which 16 functions leave more than round-off
 FINISHED = "ke == ke and resolution < inf"      # runs that did not diverge
 
 
@@ -126,49 +124,6 @@ def refuse_changing(row: pd.Series) -> None:
     refuse_dead(row)
 
 
-def from_truth(kind: str, column: str, number: Callable[[pd.Series], Any], words: str) -> Value:
-    """A number of |limit of grids - spectral method|/(error of the limit) of all flows."""
-    def answer(tables: Tables) -> Measured:
-        flows = rows(tables, "means", f"ke > {STILL}", sides="periodic").sort_values("resolution")
-        truth = flows[flows.method == f"spectral-{kind}"].drop_duplicates(SCENE, keep="last")
-        limits = flows[np.isinf(flows.resolution)].query(LIMITS[kind])
-        both = limits.merge(truth, on=SCENE, suffixes=("", "_true"))
-        rows(Tables(both=both), "both")     # raises where there are none
-        return Measured(float(number((both[column] - both[f"{column}_true"]).abs()/both[f"{column}_err"])))
-    answer.__doc__ = f"{words} |{column} - that of spectral-{kind}|/error, limits in means"
-    return of(answer)
-
-
-def spectral() -> Iterator[Claim]:
-    """Of the spectral method, and of limits beside it."""
-    own: dict[str, Any] = {"source": "KHP95 Secs V, VI",
-                           "after": "limits beside the spectral method, and its errors at Ra 10 000"}
-    for kind, (column, name) in product(LIMITS, (("ke", "K"), ("nu", "Nu"))):
-        yield Claim(id=f"own-rb-limits-{kind}-{column}", **own, because="intervals are of 95 %", at_most=0.05,
-                    value=from_truth(kind, column, lambda apart: (apart > 1).mean(), "share above 1 of"),
-                    statement=f"{name} of the spectral method lies in the intervals of the grids' limits, "
-                              f"{kind}: share of flows where it does not")
-    for kind in LIMITS:
-        yield Claim(id=f"own-rb-widths-{kind}", **own, at_least=1/3,
-                    value=from_truth(kind, "ke", pd.Series.median, "median of"),
-                    because="half is meant, of four grids; the rest is for chance",
-                    statement=f"intervals of K of the grids' limits are not too wide, {kind}: distance from "
-                              "the spectral method over error, median of all flows")
-    few, many = (one("kinetic_energy", "ke_err", err="0", **SPECTRAL | {"resolution": n, "ra": HIGH})
-                 for n in (16, 24))
-    yield Claim(id="own-rb-spectral-exponential", **own, value=largest_per("ra", many/few), at_most=0.01,
-                because="a tenth with every four functions; second order would leave 0.44",
-                statement="the error of the spectral method falls exponentially: of K with 24 functions over "
-                          "that with 16, gas, worst Ra of 5000 to 20 000")
-    finest = "(resolution > 32 or resolution == 28 and ra < 5e4)"
-    digits = largest("kinetic_energy", "ke_err/ke", err="0", such=f"{finest} and ke > {STILL}",
-                     method=tuple(f"spectral-{kind}" for kind in LIMITS))
-    yield Claim(id="own-rb-spectral-digits", **own, value=digits, at_most=5e-9,
-                because="half of the eighth digit of a number that begins with nine",
-                statement="K of the spectral method has eight digits: what the last four functions change, "
-                          "relative, largest of all Ra")
-
-
 LAST = "half of the last printed digit"
 ALMOST = ('"almost exactly" has no number: 1 %, what Sec. VI says that the fluctuations disguise of the '
           "particles which the line is there to be compared with")
@@ -216,7 +171,6 @@ def lines() -> Iterator[Claim]:
 CLAIMS = (
     *energies(),
     *lines(),
-    *spectral(),
     Claim(id="own-ke-10000-line", source="KHP95 Secs V, VI",
           statement="0.004 81 is what the straight line in Ra^-1/2 through 1.2 to 4 times onset gives at Ra "
                     "10 000", value=questions.line(questions.reading(1e4, anew=True), low=1.2),
