@@ -65,7 +65,7 @@ CLAIMS = (
           because="5 %: by which 2.5 % more rows lessen an error of second order",
           statement=f"{FLUX}: errors of a vortex of 64 rows and of a sound wave of 32 over those without"),
     *(Claim(id=f"own-stable-kept-{name}", source="KHP95 Sec. V", at_least=least,
-            after=SEEN*(name == "moving"),
+            after=f"{SEEN}; held rows had slowed it: it has no plates now"*(name == "moving"),
             value=one("hard_runs", "k/k_start", case="zero viscosity", method=method),
             because="what a trial had kept, with room: centred exchange on a lattice loses 0.2 %",
             statement=f"{WORDS[plain]}, with the flux, keep an inviscid vortex of 16 rows for five turns: "
