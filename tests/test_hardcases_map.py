@@ -65,6 +65,13 @@ def test_methods_start_with_the_flow_and_mass_of_the_scene(case):
         assert kinetic_energy(at) == pytest.approx(9/5000, rel=0.02)
 
 
+def test_nobody_holds_points_at_plates_where_nothing_slows_the_flow_down():
+    """`decisive` compares the vortex with its start: rows that stick would slow it down without viscosity."""
+    hard = [one for one in cases("paper") if isinstance(one, Hard) and one.case == "zero viscosity"]
+    held = [getattr(one.variant.ready(one.scene).method, "held", None) for one in hard]
+    assert [one for one in held if one is not None] and all(one is None or not len(one.which) for one in held)
+
+
 RUN = {"case": "Ra 1e5", "method": "fixed-lattice", "rows": 16, "k": 0.01, "k_start": 0.01, "reached": 1.0,
        "flow": 0.0115, "flow_start": 0.0115, "refused": "", "mass_drift": 0.0}
 

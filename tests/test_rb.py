@@ -12,7 +12,9 @@ from studies.build import spam
 from studies.build.fixed import SCHEMES, layer
 from studies.build.measure import rolls
 from studies.kit.sweep import RESULTS, NoSuchCase, load
+from studies.kit.table import Tables
 from studies.rb import tables
+from studies.rb.claims.freezing import rattling
 from studies.rb.derive import ENERGIES, extrapolated, step_change, step_changes
 from studies.rb.runs.points import DihRun, MovingRun
 from studies.rb.runs.spam import SpamRun
@@ -135,3 +137,15 @@ def test_rolls_are_twice_the_strongest_harmonic():
     for m in (1, 2, 3):
         assert rolls(scene, x, 0.1*np.cos(2*np.pi*m*x[:, 0]/scene.width)) == 2*m
     assert rolls(scene, x, 0*x[:, 0]) == 0
+
+
+def test_a_frozen_fluid_is_static_though_one_run_with_a_large_error_is_not():
+    """K grows as the step but for that run, which says itself how little it knows."""
+    steps = {name: 0.16/2**n for n, name in enumerate(("printed", "printed-half-step", *spam.STEPS))}
+    runs = [{**tables.particles(3000, 16, name, eos="dense"), "dt": dt, "ke": 0.02*dt, "ke_err": 1e-5}
+            for name, dt in steps.items() for _ in range(3)]
+    runs[-4] |= {"ke": 0.002, "ke_err": 2e-3}
+    grid = {**tables.grid(3000, eos="dense"), "ke": 0.002, "ke_err": 0.0}
+    means = pd.DataFrame([grid | {"mixed": 0}])
+    at_rest = rattling(Tables(kinetic_energy=pd.DataFrame([*runs, grid]), means=means))
+    assert abs(at_rest.value) < 0.01 and at_rest.err < 0.1

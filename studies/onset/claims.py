@@ -94,10 +94,6 @@ ONSET_CLAIMS = (
           because=FIVE,
           statement="the line of K extrapolated in L^-2 gives five figures of the critical Ra: difference "
                     "from growth rates", value=off_growth_rates(LAYER, LINE_L2)),
-    Claim(id="khp95-ra-figures-plain", source="KHP95 Sec. V", printed="five significant figures",
-          at_most=0.5e-4, because=FIVE,
-          statement="the line of K gives five figures of the critical Ra, each K extrapolated before the "
-                    "line is drawn", value=off_growth_rates(LAYER, LINE)),
     Claim(id="khp95-ra-figures-square", source="KHP95 Sec. V, Fig. 6", printed="five significant figures",
           at_most=0.5e-4, because=FIVE,
           statement="the line of K extrapolated in L^-2 gives five figures of the critical Ra of the "

@@ -88,7 +88,7 @@ WAVES = (
           headline=True, evidence="ordering/surface.png", value=slope("lattice", "a", 64.0),
           because="0.1: weights of 2 to 6 spacings, whose sums differ by some per cent from integrals",
           statement="r0 must be smaller than lambda: slope of the gradient's error in r0/lambda at fixed "
-                    "spacing, lattice, ranges from 2 to 6 spacings"),
+                    "spacing, lattice, ranges from 2 to 6 spacings, weights normalised by its sums"),
     Claim(id="own-continuum-limit-jittered", source="RR98 Sec. III", at_least=0.5,
           evidence="ordering/makers.png", value=slope("jittered-0.3", "h/a", 3.0),
           because=HALF,

@@ -34,7 +34,7 @@ def points() -> Iterator[Case]:
         yield MovingRun(scene=where, variant=MOTIONS[name], seed=seed)
     for motion, seed in product(DRIFT_MOTIONS.values(), SEEDS):
         yield DriftRun(scene=few, variant=motion, seed=seed)
-    for name, seed in product(FINER, SEEDS[:2]):
+    for name, seed in product(FINER, SEEDS):
         yield DriftRun(scene=many, variant=DRIFT_MOTIONS[name], seed=seed)
 
 

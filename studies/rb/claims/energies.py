@@ -13,7 +13,7 @@ from itertools import product
 
 from studies.build.names import as_printed
 from studies.kit import stats
-from studies.kit.ask import NoRows, Value, largest_of, last, of, one, per_seed, power, rows
+from studies.kit.ask import NoRows, Value, largest_of, last, of, one, per_seed, rows
 from studies.kit.claim import Claim
 from studies.kit.stats import CannotTell, Measured
 from studies.kit.table import Tables
@@ -109,11 +109,6 @@ def grown() -> Iterator[Claim]:
                 statement="smooth particles converge if the range grows as rows^(1/2): |error of Kg| with "
                           "the most rows that were run, Wendland C2, images at rest, Ra 10 000",
                 after="vortices had been seen to converge")
-    yield claim(id="own-joint-power", at_most=-0.5, because="slip by a part of the range has this power",
-                value=power("errors", "abs(error)", "resolution", "resolution > 45", err="error_err",
-                            **joint()),
-                after="50 and 70 rows had been seen",
-                statement="from 50 rows on that error falls as slip at images does: its power in rows")
     yield claim(id="own-joint-walls", at_most=0.5, because="half of it goes: slip is the larger part",
                 value=one("errors", "abs(error)", err="error_err", resolution=70,
                           **joint("wendland-c2-walls-odd-joint"))
