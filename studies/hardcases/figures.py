@@ -36,8 +36,8 @@ LEVELS, SHADES = (1.0, 5.0, 1e9), ListedColormap(["#DEEBF7", "#F5C26B", "#D55E00
 #: outcome -> what stands in place of a number
 WORDS = {"diverges": "ends", "freezes": "stops", "refused": "no", "unjudged": "?"}
 KEY = ("A cell is the worst error of all sizes, starts and steps over the error that is allowed: 1 is the "
-       "limit. Allowed is a tenth, against the finest grid, the exact answer or theory, and for the ringing of "
-       "v in shock tubes; 4 spacings for the place of a wave without viscosity, 1 for that of a front. "
+       "limit. Allowed is a tenth, against the finest grid, the exact answer or theory, and for the ringing "
+       "of v in shock tubes; 4 spacings for the place of a wave without viscosity, 1 for that of a front. "
        "Lightest: right by all that is asked. ends: a run ended early. stops: the flow came to rest. no: the "
        "method refuses. ?: nothing to judge by. Empty: not tried. Right of the line: with the entropy-stable "
        "flux. Methods tried in one or two cases are in map.csv.")
