@@ -69,8 +69,10 @@ SCENE   ?= rayleigh-benard
 METHOD  ?= fixed-lattice
 ROWS    ?= 16
 NUMBERS ?=
+comma := ,
+spaced = $(subst $(comma), ,$1)
 solve: .venv/ready  ## K, Nu and a picture: make solve SCENE=cavity METHOD="grid spam" ROWS="16 32" NUMBERS="ra=5000 pr=0.7"
-	$(run) -m studies.front $(SCENE) $(METHOD) --rows $(ROWS) $(if $(NUMBERS),--numbers $(NUMBERS)) $(ARGS)
+	$(run) -m studies.front $(SCENE) $(call spaced,$(METHOD)) --rows $(call spaced,$(ROWS)) $(if $(NUMBERS),--numbers $(call spaced,$(NUMBERS))) $(ARGS)
 
 # a class of one's own, module:Class, or a name as above; ARGS="--rows 8 12" is a ladder of half a minute
 judge: .venv/ready  ## a page on how good a method of your own is, and an error if no rung is passed: make judge METHOD=examples.your_method:Cells
@@ -114,6 +116,10 @@ bench: .venv/ready-bench  ## speed, beside public codes, in one run
 	$(run) -m bench.spam_speed $(ARGS)
 	$(run) -m bench.points_speed
 	$(run) -m bench.dpd_speed $(ARGS)
+
+# a name that is no target
+.DEFAULT:
+	@echo 'nothing is called $@: make lists what there is' >&2; exit 2
 
 # one case at a time, with one thread each
 worker: export OMP_NUM_THREADS = 1

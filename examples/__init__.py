@@ -1,4 +1,4 @@
-"""Ten short scripts, each ends in a picture in results/own: `python -m examples.convection`.
+"""Eleven short scripts, each ends in a picture in results/own: `.venv/bin/python -m examples.convection`.
 
 SIZE=quick makes them small, as the tests run them. `python -m studies.report gallery` puts those of the usual
 size into the gallery of the page.

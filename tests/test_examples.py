@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from examples.your_study import STUDY
 from studies.kit.key import ROOT
 
 EXAMPLES = sorted(path.stem for path in (ROOT/"examples").glob("[!_]*.py"))
@@ -30,3 +31,9 @@ def test_an_example_is_short_and_ends_in_a_picture_that_it_names(name, small, ca
         runpy.run_path(str(ROOT/"examples"/f"{name}.py"), run_name="__main__")
     picture: Path = small/f"{name}.png"
     assert picture.stat().st_size > 3000 and f"picture: results/own/{name}.png" in capfd.readouterr().out
+
+
+def test_the_study_to_copy_makes_its_table_figure_and_verdict(tmp_path):
+    STUDY.run("quick", out=tmp_path, only="grid 1 ", workers=1)
+    assert [path.name for path in STUDY.draw(tmp_path)] == ["heat.png"]
+    assert [row["verdict"] for row in STUDY.judge(tmp_path)] == ["holds"]

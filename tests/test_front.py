@@ -156,6 +156,8 @@ def other_box():
     (lambda: solve("sound", "boussinesq"), "boussinesq solves Rayleigh-Benard convection, not Sound"),
     (lambda: solve("sound", lambda scene: with_term(ready(scene, "spam").method, 0.0)),
      "Spam takes no float: pair terms are for methods with edges and images, which are fixed-lattice"),
+    (lambda: solve("sound", lambda scene: with_term(ready(scene, "fixed-lattice").method, 0.0), rows=8),
+     r"a formula is missing or does not fit in rate\(float64, point, point, Edge"),
     (lambda: solve(RB, "grid", Ra=1e4), r"nothing is called 'Ra'; near to it are ra\b"),
     (lambda: solve("taylor-green", "grid", ra=1e4),
      "nothing is called 'ra'; there are rows, mach, seed, time, dt, resume, progress$"),

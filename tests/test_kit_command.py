@@ -130,7 +130,7 @@ def test_only_that_matches_nothing_names_labels_that_exist(typed, tmp_path):
     code, text = typed("--only", "quintic")
     assert code == 2 and not (tmp_path/"results/toy").exists()
     assert text == ("toy: no case of size paper has 'quintic' in its label; near to it are Quartic; "
-                    "the first labels are: "
+                    "SIZE=fine has more; the first labels are: "
                     "Cube 1 plain; Cube 0.333333 plain; Cube 7 Quartic\n")
     code, text = typed("figures", "--only", "plain")
     assert code == 2 and "--only chooses what to run, figures reads whole tables" in text

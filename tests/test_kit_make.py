@@ -102,7 +102,7 @@ def test_a_word_that_is_wrong_is_refused_in_one_line_before_anything_is_set_up(m
 
 def test_all_of_what_is_typed_reaches_a_solution(make, tmp_path):
     set_up(tmp_path, "ready")
-    code, text = make("-n", "solve", "METHOD=grid spam", "NUMBERS:=ra=1 pr=2", "ARGS=--out a=b",
+    code, text = make("-n", "solve", "METHOD=grid,spam", "NUMBERS:=ra=1,pr=2", "ARGS=--out a=b",
                       "OMP_NUM_THREADS=1")
     assert code == 0 and text.split("studies.front ")[1].split() == [
         *"rayleigh-benard grid spam --rows 16 --numbers ra=1 pr=2 --out a=b".split()]

@@ -62,7 +62,7 @@ def test_what_is_tried_out_stands_beside_its_kin_with_the_nearest_rows():
     row = {**case.point, "ke_field": 1/7, "ke_field_err": 0.01}
     known = load(tables.ALL, "rb", RESULTS)
     head, mine, _, _, *kin = study.beside([case], {"means": pd.DataFrame([row])}, known)
-    assert mine == " 25 rows  0.142857 +- 0.010000  spam-wendland-c2" and "Ra 10000" in head
+    assert mine == " 25 rows  0.142857 +- 0.010000 +2820.8 %  spam-wendland-c2" and "Ra 10000" in head
     assert sum(line.endswith(" spam") for line in kin) == 1 and all(" fixed-" not in line for line in kin)
     assert any(line.startswith(" 50 rows") and "spam-wendland-c2" in line for line in kin), "25 is its own"
     assert any(line.startswith("   limit") and "grid" in line for line in kin)

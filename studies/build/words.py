@@ -44,6 +44,6 @@ def explained(text: str = "") -> str:
     for title, words in (("methods", METHODS), ("methods of single studies", VARIATIONS), ("scenes", SCENES),
                          ("quantities", QUANTITIES)):
         rows = [word for word in words.values() if text.casefold() in " ".join(word).casefold()]
-        lines += [f"{title}:", *(f"  {word.name:34s}{word.about}{f'  [{word.source}]'*bool(word.source)}"
+        lines += [f"{title}:", *(f"  {word.name:40s}{word.about}{f'  [{word.source}]'*bool(word.source)}"
                                  for word in rows)]*bool(rows)
     return "\n".join(lines) or f"no name and no sentence has {text!r}: leave it out to see all"

@@ -67,7 +67,7 @@ def mapped(axes: Axes, scene: Any, at: pd.DataFrame) -> None:
     L, shown = scene.L, "T" if np.ptp(at["T"]) > np.ptp(at["rho"]) else "rho"
     mesh = Triangulation(at["x"]/L, at["y"]/L)
     colours = axes.tripcolor(mesh, at[shown], shading="gouraud", cmap="cividis")
-    axes.figure.colorbar(colours, ax=axes, label=NAMES[shown], shrink=0.8)
+    axes.figure.colorbar(colours, cax=axes.inset_axes((1.03, 0, 0.05, 1)), label=NAMES[shown])
     x, y = (np.arange(-size/2 + 0.5/ARROWS, size/2, 1/ARROWS) for size in (scene.width/L, 1))
     X, Y = np.meshgrid(x, y)
     vx, vy = (LinearTriInterpolator(mesh, at[name])(X, Y) for name in ("vx", "vy"))

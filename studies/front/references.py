@@ -110,9 +110,7 @@ def boussinesq(scene: Any) -> Parts:
     near = nearest(scene)
     state = steady(BoussinesqCase(ra=near.ra, pr=near.pr, rows=round(scene.L), box=Box(width=scene.aspect/2)))
     seen = state.observe()
-    apart = abs(seen.nu_top - seen.nu_bottom)
-    numbers = {"K": Measured(seen.K*near.speed**2),
-               "Nu": Measured(1 + near.share*(seen.nu_bottom - 1), near.share*apart)}
+    numbers = {"K": Measured(seen.K*near.speed**2), "Nu": Measured(1 + near.share*(seen.nu_bottom - 1))}
     return {"numbers": numbers, "history": NO_HISTORY, "at": of_state(scene, state, near)}
 
 

@@ -1,4 +1,5 @@
 """One call for every method: particles, points, grids, py-pde, Boussinesq, linear theory."""
+import re
 import sys
 import warnings
 from collections.abc import Callable, Iterable, Sequence
@@ -14,6 +15,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
+from numba.core.errors import TypingError
 from tqdm import tqdm
 
 from continuum.domain import Domain
@@ -48,7 +50,7 @@ def solve(scene: Any, method: Any, *, rows: int | None = None, seed: int = 1, ti
     of convection, viscous times of a box. dt : the step, if not the method's own. resume : a file that an
     interrupted run goes on from. progress : a bar; by default where one looks.
     Raises ValueError: there is no such scene or method, or the method cannot take the scene. TypeError: one
-    of them is neither. Divergence.
+    of them is neither, or a formula of one's own does not fit. Divergence.
     """
     positive(**{name: given for name, given in (("time", time), ("dt", dt)) if given is not None})
     if not isinstance(seed, Integral) or seed < 0:
@@ -59,14 +61,27 @@ def solve(scene: Any, method: Any, *, rows: int | None = None, seed: int = 1, ti
     else:
         try:
             made = prepared(where, chosen, seed)
+            plan = planned(where, chosen, dt or made.dt, time, resume)
+            warn_of_heat(where, plan.dt*plan.steps)
+            parts = followed(where, made, plan, called(method), progress)
+        except TypingError as error:
+            raise TypeError(misfit(str(error))) from error
+        except KeyError as error:
+            raise TypeError(f"a formula asks for {error}, which it is not given") from error
         except ValueError as error:     # points on sides take one that slides, but not into corners
             corners = " = Sliding(" in str(error) and where.sides.axes == (False, False)
             why = ", as it slides into corners: take"
             raise ValueError(str(error).replace(": take", why, corners)) from None
-        plan = planned(where, chosen, dt or made.dt, time, resume)
-        warn_of_heat(where, plan.dt*plan.steps)
-        parts = followed(where, made, plan, called(method), progress)
     return Solution(scene=where, method=called(method), rows=rows_of(where), seed=seed, **parts)
+
+
+def misfit(words: str) -> str:
+    """The innermost of numba's messages, in a line: what a formula of one's own was called with, or gave."""
+    words = re.sub(r"Record\([^()]*\)", "point", words)
+    inner = words.split("(step: nopython frontend)")[-1]
+    what = next(filter(None, map(str.strip, inner.splitlines())))
+    call = (inner if ">>> " in inner else words).partition(">>> ")[2].partition("\n")[0]
+    return f"a formula is missing or does not fit in {call}: {'' if '>>>' in inner else what}".rstrip(": ")
 
 
 def placed(scene: Any, rows: int | None, **of_scene: Any) -> Any:

@@ -35,12 +35,12 @@ LISTED = "entropy-stable"  # ends the names of methods with the ingredient
 LEVELS, SHADES = (1.0, 5.0, 1e9), ListedColormap(["#DEEBF7", "#F5C26B", "#D55E00", "#3B0F4F"])
 #: outcome -> what stands in place of a number
 WORDS = {"diverges": "ends", "freezes": "stops", "refused": "no", "unjudged": "?"}
-KEY = ("A cell is an error over what is allowed, so that 1 is the limit: of the flow against the finest "
-       "grid, the exact answer or theory a tenth, like the ringing of v in shock tubes; of where waves "
-       "and fronts without viscosity are 4 and 1 spacings; the worst of all sizes, starts and steps. "
-       "Lightest: right, by all that is asked. Dark: a run ended early. stops: the flow did. no: the method "
-       "refuses. ?: nothing to judge by. Empty: not tried. Right of the line: with a flux that survives. "
-       "Methods tried in one or two cases are in map.csv.")
+KEY = ("A cell is the worst error of all sizes, starts and steps over the error that is allowed: 1 is the "
+       "limit. Allowed is a tenth, against the finest grid, the exact answer or theory, and for the ringing "
+       "of v in shock tubes; 4 spacings for the place of a wave without viscosity, 1 for that of a front. "
+       "Lightest: right by all that is asked. ends: a run ended early. stops: the flow came to rest. no: the "
+       "method refuses. ?: nothing to judge by. Empty: not tried. Right of the line: with the entropy-stable "
+       "flux. Methods tried in one or two cases are in map.csv.")
 
 
 def judged(rows: pd.DataFrame) -> pd.DataFrame:
@@ -59,7 +59,7 @@ def judged(rows: pd.DataFrame) -> pd.DataFrame:
 
 
 def chart(rows: pd.DataFrame) -> Figure:
-    """Errors of methods in hard cases, without and with a flux that survives."""
+    """Errors of methods in hard cases, without and with the entropy-stable flux."""
     rows = judged(rows).sort_values(["shade", "error"], na_position="first")
     rows = rows.drop_duplicates(["case", "method"], keep="last")
     rows = rows[rows.groupby("method").case.transform("nunique") >= MANY]
@@ -82,7 +82,7 @@ def chart(rows: pd.DataFrame) -> Figure:
     axes.grid(False)
     parts = [rows[rows.method.str.endswith(LISTED) == listed] for listed in (False, True)]
     ends = [f"{(part.outcome == 'diverges').sum()} of {len(part)}" for part in parts]
-    page.suptitle(f"Without a flux that survives {ends[0]} cells end, with it {ends[1]}")
+    page.suptitle(f"Without the entropy-stable flux {ends[0]} cells end early, with it {ends[1]}")
     page.supxlabel(fill(KEY, 112), fontsize=8, x=0.01, ha="left")
     return page
 
@@ -147,7 +147,7 @@ def shock_methods(rows: pd.DataFrame, profiles: pd.DataFrame) -> Figure:
         axes.set(title=rf"$\eta = k = {eta:g}$", xlabel="distance from the diaphragm / $L$",
                  xlim=(-0.8, 1.0), ylim=(-0.1, SHIFT*(len(ALL) - 1) + 1.15), yticks=[])
     all_axes[0].set_ylabel("density, methods one above the other")
-    page.suptitle("Without friction methods ring or end behind a shock; with enough of it all have it\n"
+    page.suptitle("Without friction methods ring or end behind a shock; with enough of it all are right\n"
                   "Sod's tube at $t = 0.4 L$, no artificial viscosity; thin: exact, frictionless")
     return page
 
@@ -186,7 +186,7 @@ def highest(rows: pd.DataFrame, summary: pd.DataFrame) -> Figure:
               title=f"lines: medians of {BINS:g} bins a decade; grey: a factor of {OFF:g}")
     above.legend(loc="center right")
     under.set(xlabel="Ra", ylim=(len(IN_LAYERS) - 0.4, -0.6),
-              title="bars: open: first wrong, all starts; filled: first that ends, all starts\n"
+              title="open marks: first wrong; filled: first that ends; bars: the range over starts\n"
                     "ticks: runs that came to their end; crosses: runs that did not")
     under.set_yticks(range(len(IN_LAYERS)), labels=list(IN_LAYERS), fontsize=8)
     page.suptitle(f"On {ROWS} rows grid and points that stay end near Ra 5e5; moving points go on, but wrong")

@@ -27,8 +27,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     words = parsed(parser, arguments)
     try:
         method = found(words.method)
-    except (ValueError, ImportError, AttributeError) as error:
-        return say(str(error), 1)
+    except (ValueError, ImportError) as error:
+        where = ": write FILE:CLASS, with FILE.py in this folder"*isinstance(error, ModuleNotFoundError)
+        return say(f"{error}{where}", 1)
     name = words.method.rpartition(":")[2]
     try:
         takes = climb(method, sorted(words.rows), words.minutes)
@@ -43,15 +44,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def found(words: str) -> Any:
-    """A class by module:Class, or a name. Raises ValueError, ImportError, AttributeError: there is none."""
-    module, colon, name = words.partition(":")
+    """A class by module:Class, or a name. Raises ValueError, ImportError: there is none."""
+    file, colon, name = words.partition(":")
     if not colon:
         variant(words)
         return words
     sys.path.insert(0, str(Path.cwd()))
-    method = getattr(import_module(module), name)
-    if not isinstance(method, type):
-        raise ValueError(f"{words} is a {type(method).__name__}: name a class that takes a scene")
+    module = import_module(file.removesuffix(".py").replace("/", "."))
+    if not isinstance(method := getattr(module, name, None), type):
+        classes = ", ".join(one for one, kind in vars(module).items() if isinstance(kind, type))
+        raise ValueError(f"{words} is none: name a class that takes a scene; {file} has {classes or 'none'}")
     return method
 
 

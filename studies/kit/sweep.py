@@ -131,9 +131,10 @@ def labelled(cases: Sequence[Case], only: str, size: str) -> Sequence[Case]:
     if only and not chosen:
         labels = "; ".join(case.label for case in cases[:LABELS])
         words = {word.casefold(): word for case in cases for word in case.label.split()}
-        near = ", ".join(words[word] for word in get_close_matches(only.casefold(), words, LABELS)) or "none"
-        raise NoSuchCase(f"no case of size {size} has {only!r} in its label; near to it are {near}; the "
-                         f"first labels are: {labels}")
+        alike = ", ".join(words[word] for word in get_close_matches(only.casefold(), words, LABELS))
+        near = f"; near to it are {alike}"*bool(alike) + "; SIZE=fine has more"*(size != "fine")
+        raise NoSuchCase(f"no case of size {size} has {only!r} in its label{near}; the first labels are: "
+                         f"{labels}")
     return chosen
 
 

@@ -152,5 +152,5 @@ def say_diverged(axes: Axes, row: Any, height: float) -> None:
 def symlog(axes: Axes, error: pd.Series) -> None:
     """Ticks of errors with their sign, in the range that there is."""
     axes.set_xscale("symlog", linthresh=LINEAR)
-    ticks = [tick for tick in TICKS if abs(tick) <= max(LINEAR, 100*error.abs().max())]
+    ticks = [tick for tick in TICKS if abs(tick) <= max(LINEAR, 105*error.abs().max())]
     axes.set_xticks(ticks, labels=map(str, ticks))
