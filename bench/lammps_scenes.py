@@ -185,7 +185,7 @@ def main() -> None:
     """As the head says."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--rows", type=int, nargs="+", default=[16, 25, 35, 50])
-    parser.add_argument("--only", default="", metavar="TEXT", help="part of 'SCENE STYLE ': its space ends a name")
+    parser.add_argument("--only", default="", metavar="TEXT", help="part of 'SCENE STYLE '")
     parser.add_argument("--time", action="store_true", help="seconds of convection, and nothing else")
     words = parser.parse_args()
     find_mpi()

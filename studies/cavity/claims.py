@@ -6,11 +6,8 @@ from typing import Any
 
 from continuum.published import published
 from studies.cavity.cases import RAS
-from studies.kit.ask import Value, largest, largest_per, last, of, one
+from studies.kit.ask import Value, bench, largest, largest_per, last, one
 from studies.kit.claim import Claim
-from studies.kit.stats import Measured
-from studies.kit.sweep import RESULTS
-from studies.kit.table import Tables, read
 
 #: his own errors, relative: Table VII of de Vahl Davis 1983 as the notes on Datum Flow 0.1.3 quote it
 HIS = dict(zip(RAS, (1e-3, 2e-3, 3e-3, 1e-2)))
@@ -61,13 +58,7 @@ def errors() -> Iterator[Claim]:
 
 def again(name: str, ra: float) -> Value:
     """A number of the printed run, 100 rows with the code's own walls, made again."""
-    asked = one("ethersph", name, "factor < 1", ra=ra, rows=100)
-
-    def answer(tables: Tables) -> Measured:
-        path = RESULTS/"bench"/"ethersph.csv"
-        return asked(Tables(ethersph=read(path)) if path.exists() else Tables())
-    answer.__doc__ = str(asked)
-    return of(answer)
+    return bench(one("ethersph", name, "factor < 1", ra=ra, rows=100))
 
 
 def made_again() -> Iterator[Claim]:
