@@ -72,8 +72,8 @@ def lammps() -> Iterator[Row]:
     """K of LAMMPS' convection of a Boussinesq fluid, against that of the spectral one; one seed."""
     if not (path := RESULTS/"bench"/"lammps.csv").exists():
         return
-    styles = list(LAMMPS)
-    table = read(path).query("style in @styles and quantity in ('K', 'seconds')")
+    table = read(path)
+    table = table[table["style"].isin(LAMMPS) & table.quantity.isin(["K", "seconds"])]
     for (style, rows), pair in groups(table, ["style", "rows"]):
         of = pair.set_index("quantity")
         if {"K", "seconds"} <= {*of.index}:

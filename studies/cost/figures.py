@@ -12,7 +12,7 @@ from studies.kit.figure import FILLS, LINES, Drawing, Drawings, figure, numbered
 
 #: scene, quantity, title of each panel
 PANELS = (
-    ("convection", "K", "a smooth flow: K of convection, Ra 10 000; LAMMPS: of another fluid, Boussinesq's"),
+    ("convection", "K", "a smooth flow: K of convection, Ra 10 000, of a gas; LAMMPS' is another fluid, Boussinesq's"),
     ("taylor-green", "velocity", "a vortex: velocity"),
     ("sound", "velocity", "a sound wave: velocity"),
     ("conduction", "temperature", "heat conduction: temperature"),
@@ -31,8 +31,8 @@ FAMILIES = {
     "spam-corrected": ("#CC79A7", "v"),
     "spam": ("#D55E00", "s"),
     "moving": ("#009E73", "D"),
-    "LAMMPS sph": ("#666666", "$S$"),
-    "LAMMPS RHEO": ("#666666", "$R$"),
+    "LAMMPS sph": ("#666666", "<"),
+    "LAMMPS RHEO": ("#666666", ">"),
 }
 
 
@@ -43,12 +43,16 @@ def work_precision(points: pd.DataFrame, needed: pd.DataFrame) -> Figure:
 
     Best is what needs the least seconds for 1 %, else for 3 %, else for 10 %, else has the least error.
     """
-    page, all_axes = figure(2, 2, width=3.7, height=3.1)
-    for axes, (scene, quantity, title) in zip(all_axes.flat, PANELS):
+    page, grid = figure(2, 3, width=2.6, height=3.4)
+    wide, *narrow = all_axes = [grid[0, 0], *grid[1]]
+    for axes in grid[0, 1:]:
+        axes.remove()
+    wide.set_subplotspec(wide.get_gridspec()[0, :])
+    for axes, (scene, quantity, title) in zip(all_axes, PANELS):
         scenes = [scene, BOUSSINESQ] if scene == "convection" else [scene]
         here = f"scene in {scenes} and quantity == '{quantity}'"
         panel(axes, points.query(f"{here} and error > 0"), needed.query(here), title)
-    for axes in all_axes[:, 0]:
+    for axes in (wide, narrow[0]):
         axes.set_ylabel("relative error")
     legend(page, all_axes)
     page.suptitle("1 % is cheapest on grids, then on points; smooth particles reach it with corrected sums\n"
@@ -121,15 +125,15 @@ def loglog(axes: Axes, title: str, xlabel: str) -> None:
         numbered(axis)
 
 
-def legend(page: Figure, all_axes: np.ndarray) -> None:
+def legend(page: Figure, all_axes: list[Axes]) -> None:
     """One for all panels, below; without bars, which hide markers."""
     handles: dict = {}
-    for axes in all_axes.flat:
+    for axes in all_axes:
         bars, names = axes.get_legend_handles_labels()
         handles |= dict(zip(names, bars, strict=True))
     order = [name for name in METHODS if name in handles]
     lines = [handles[name].lines[0] for name in order]
-    page.legend(lines, order, loc="outside lower center", ncols=2, handlelength=4)
+    page.legend(lines, order, loc="outside lower center", ncols=3, handlelength=4)
 
 
 FIGURES = Drawings(Drawing("work_precision", ("points", "needed"), work_precision))
