@@ -12,10 +12,10 @@ from studies.kit.figure import FILLS, LINES, Drawing, Drawings, figure, numbered
 
 #: scene, quantity, title of each panel
 PANELS = (
-    ("convection", "K", "a smooth flow: K of convection, Ra 10 000, of a gas; LAMMPS' is another fluid, Boussinesq's"),
+    ("convection", "K", "a smooth flow: K of convection, Ra 10 000; LAMMPS' is another fluid, Boussinesq's"),
     ("taylor-green", "velocity", "a vortex: velocity"),
     ("sound", "velocity", "a sound wave: velocity"),
-    ("conduction", "temperature", "heat conduction: temperature"),
+    ("conduction", "temperature", "conduction: temperature"),
 )
 WORST = 10.0        # relative error that is drawn: ten times the answer
 #: of error, at which members of a family are compared: the first that one of them reaches
@@ -38,8 +38,8 @@ FAMILIES = {
 
 def work_precision(points: pd.DataFrame, needed: pd.DataFrame) -> Figure:
     """Relative error against CPU seconds: a panel a question, a line the best method of each family. LAMMPS
-    computes a Boussinesq fluid, judged by its own spectral answer, for all of 90 free-fall times; the others
-    stop when K is as near to its end as their error.
+    computes a Boussinesq fluid, judged by its own spectral answer, for all of 90 free-fall times, with steps
+    at which a vortex has converged; the others stop when K is as near to its end as their error.
 
     Best is what needs the least seconds for 1 %, else for 3 %, else for 10 %, else has the least error.
     """
@@ -56,7 +56,7 @@ def work_precision(points: pd.DataFrame, needed: pd.DataFrame) -> Figure:
         axes.set_ylabel("relative error")
     legend(page, all_axes)
     page.suptitle("1 % is cheapest on grids, then on points; smooth particles reach it with corrected sums\n"
-                  "the best of each family, at its own best step, one thread; bars: 95 %")
+                  "the best of each family, at its own best step, one thread, with setting up; bars: 95 %")
     return page
 
 
@@ -65,7 +65,7 @@ def panel(axes: Axes, rows: pd.DataFrame, needed: pd.DataFrame, title: str) -> N
     draw(axes, rows[rows.method.isin(best(rows, needed))], "cpu_s", "error")
     for level in LEVELS:
         axes.axhline(level, color="grey", linewidth=0.6, linestyle=":")
-    loglog(axes, title, "CPU seconds, setting up included")
+    loglog(axes, title, "CPU seconds")
     axes.set_ylim(top=min(WORST, axes.get_ylim()[1]))
 
 
