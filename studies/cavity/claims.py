@@ -23,10 +23,11 @@ def exact(**where: Any) -> Value:
     return last("cavity", "value", by="resolution", err="err", method="spectral-boussinesq", **where)
 
 
-def printed_of(name: str, ra: float, quantity: str, share: float, **words: Any) -> Claim:
-    """A printed number, with a share of it for its error."""
+def printed_of(name: str, ra: float, quantity: str, share: float = 0.0, **words: Any) -> Claim:
+    """A printed number, with a share of it for its error, else its uncertainty."""
     id = f"{name}-{ra:.0e}".replace("+0", "")
     number = published(id).value
+    share = share or published(id).uncertainty/number
     return Claim(id=id, printed=f"{number:.9g}", value=exact(ra=ra, quantity=quantity), expect=number,
                  within=share*number, **words)
 
@@ -42,6 +43,13 @@ def printed() -> Iterator[Claim]:
         yield printed_of(f"ethersph-{version}", ra, "nu", 0.01, **ETHERSPH, **ASIDE,
                          after="references of three digits stood beside the number",
                          statement=f"nu of the cavity at Ra {ra:g} by smooth particles{words}")
+
+
+    for ra, column in product(RAS, (1, 3)):
+        yield printed_of(f"ethersph-reference-{column}", ra, "nu", **ETHERSPH,
+                         because="half of the last digit", after="the spectral number was known",
+                         statement=f"nu of the cavity at Ra {ra:g} by reference {column}, from which errors "
+                                   "of smooth particles are taken")
 
 
 def errors() -> Iterator[Claim]:

@@ -1,4 +1,6 @@
 """What errors cost, judged    [KHP95 Secs I, II, VII; RR98 Sec. III]"""
+from typing import Any
+
 import numpy as np
 
 from studies.cost.tables import (
@@ -60,8 +62,8 @@ def no_dearer(name: str, where: dict[str, str], words: str, after: str = "") -> 
 
 
 #: of convection by LAMMPS and ours, in one run
-TIMED = {"scene": "time", "quantity": "seconds", "err": "err"}
-OUTSIDE = {"source": "KHP95 Sec. VII"}
+TIMED: dict[str, Any] = {"scene": "time", "quantity": "seconds", "err": "err"}
+OUTSIDE: dict[str, Any] = {"source": "KHP95 Sec. VII"}
 TIMES = "the grid's times had been seen"
 ASKED = "asked for before it had been raced"
 POINTS = "points that move with their triangulation"

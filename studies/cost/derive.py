@@ -75,13 +75,13 @@ def lammps() -> Iterator[Row]:
     table = read(path)
     table = table[table["style"].isin(LAMMPS) & table.quantity.isin(["K", "seconds"])]
     for (style, rows), pair in groups(table, ["style", "rows"]):
-        of = pair.set_index("quantity")
-        if {"K", "seconds"} <= {*of.index}:
-            K, seconds = of.loc["K"], of.loc["seconds"]
+        of = {row["quantity"]: row for row in pair.to_dict("records")}
+        if len(of) == 2:
+            K, seconds = of["K"], of["seconds"]
             yield {"scene": BOUSSINESQ, "quantity": "K", "method": LAMMPS[style], "resolution": rows,
                    "points": 2*rows**2, "seeds": 1, "setup_s": 0.0,
-                   **with_err(error=Measured(abs(K.value/K.expected - 1), K.err/K.expected),
-                              cpu_s=Measured(seconds.value, seconds.err))}
+                   **with_err(error=Measured(abs(K["value"]/K["expected"] - 1), K["err"]/K["expected"]),
+                              cpu_s=Measured(seconds["value"], seconds["err"]))}
 
 
 def needed(points: pd.DataFrame) -> Iterator[Row]:
