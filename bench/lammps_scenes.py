@@ -185,7 +185,7 @@ def main() -> None:
     """As the head says."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--rows", type=int, nargs="+", default=[16, 25, 35, 50])
-    parser.add_argument("--only", default="", metavar="TEXT", help="part of 'SCENE STYLE'")
+    parser.add_argument("--only", default="", metavar="TEXT", help="part of 'SCENE STYLE '")
     parser.add_argument("--time", action="store_true", help="seconds of convection, and nothing else")
     words = parser.parse_args()
     find_mpi()
@@ -195,7 +195,7 @@ def main() -> None:
             keep(list(seconds(rows)))
             continue
         for scene, style in product(SCENES, STYLES):
-            if words.only in f"{scene} {style}":
+            if words.only in f"{scene} {style} ":
                 found = measured(scene, style, rows)
                 print(*(f"{scene} {style} {rows}: {one['quantity']} {one['value']:.5g} +- {one['err']:.2g}"
                         for one in found), sep="\n", flush=True)

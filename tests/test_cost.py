@@ -55,3 +55,13 @@ def test_a_resolution_at_which_a_seed_diverged_has_no_mean():
     lost = made["errors"].iloc[:1].assign(seed=2, quantity="diverged", error=np.nan)
     means = derive.over_seeds(pd.concat([made["errors"], lost]), made["runs"], pd.DataFrame())
     assert means["resolution"].tolist() == [8, 16, 24]
+
+
+def test_lammps_is_judged_by_its_own_fluid_where_it_was_timed(tmp_path, monkeypatch):
+    (tmp_path/"bench").mkdir()
+    rows = "rheo,16,K,3,0.2,2", "rheo,16,seconds,5,0.5,", "rheo,25,K,2,0.1,2", "rheo-RK1,16,K,3,0.2,2"
+    (tmp_path/"bench"/"lammps.csv").write_text("\n".join(("style,rows,quantity,value,err,expected", *rows)))
+    monkeypatch.setattr(derive, "RESULTS", tmp_path)
+    [row] = derive.lammps()
+    assert (row["method"], row["points"]) == ("LAMMPS RHEO", 512)
+    assert [row[name] for name in ("error", "error_err", "cpu_s", "cpu_s_err")] == [0.5, 0.1, 5, 0.5]

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 
+from bench.lammps_flows import STYLES
 from studies.kit.ask import one, per_seed
 from studies.kit.csvfile import read
 from studies.kit.key import ROOT
@@ -371,9 +372,27 @@ def counts() -> Iterator[str]:
     yield f"K of the field is {percent('own-window')} % higher from 60 on"
 
 
-TEXTS = {"README.md": (front,), "results/README.md": (counts,),
-         "results/findings.md": (smooth, as_used_today, grids, cavity, edges, convection, space, costs,
-                                 noises, energies, breaks, choice)}
+def outside() -> Iterator[str]:
+    bench, ours = Folder("bench"), ("spam-corrected", "spam", "moving-delaunay", "grid")
+
+    def by_rows(style, quantity, scene, *rows):
+        return [said(one("lammps", "value", scene=scene, style=style, quantity=quantity, rows=n, err="err")
+                     (bench), 1) for n in rows]
+    for scene, quantity in (("rayleigh-benard", "K"), ("rayleigh-benard", "Nu"), ("time", "seconds")):
+        yield " | ".join("{} ({})".format(*by_rows(style, quantity, scene, 16, 25)) for style in STYLES)
+    for style in ("sph", "rheo", *ours):
+        cells = " | ".join(by_rows(style, "seconds", "time", 16, 25, 35, 50))
+        yield f"| {'our' if style in ours else 'LAMMPS'} `{style}` | {cells} |"
+    ns = {name: one(table, "ns_per_particle_evaluation", what=name, particles=points)(bench).value
+          for table, points, names in (("spam_speed", 20_000, ("spam", "lammps")),
+                                       ("dpd_speed", 24_000, ("dpd", "lammps dpd"))) for name in names}
+    yield f"SPAM {ns['spam']:.0f} ns a particle and evaluation, DPD {ns['dpd']:.0f} ns a step"
+    yield f"three SPH sums {ns['lammps']:.0f} ns, DPD {ns['lammps dpd']:.0f} ns a step"
+
+
+TEXTS = {"README.md": (front,), "results/README.md": (counts,), "bench/README.md": (outside,),
+         "results/findings.md": (smooth, grids, cavity, edges, convection, space, costs, noises,
+                                 energies, breaks, choice)}
 #: a number with its error, as in 17.5(15)
 ERROR = r"[-+]?\d[\d.]*\(\d+\)"
 #: that no row has: the example of how they are written, an error that misses its level, ranges of variants

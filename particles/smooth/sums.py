@@ -272,7 +272,7 @@ def _pushed(first, last, state, pull, out):
 
 @jit
 def _closed(first, last, state, flux, pull, out):
-    """The same of what partners bring, times x in columns 0:8 and y in 8:16, and of what is a particle's own."""
+    """The same of what partners bring, times x in columns 0:8, y in 8:16, and of what is a particle's own."""
     for i in range(first, last):
         a, p, x, y = flux[i], pull[i], pull[i, 4], pull[i, 12]
         own_x, own_y, sent_x, sent_y = a.xx*x + a.xy*y, a.xy*x + a.yy*y, p[0] + p[9], p[1] + p[13]

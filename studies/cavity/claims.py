@@ -6,11 +6,8 @@ from typing import Any
 
 from continuum.published import published
 from studies.cavity.cases import RAS
-from studies.kit.ask import Value, largest, largest_per, last, of, one
+from studies.kit.ask import Value, bench, largest, largest_per, last, one
 from studies.kit.claim import Claim
-from studies.kit.stats import Measured
-from studies.kit.sweep import RESULTS
-from studies.kit.table import Tables, read
 
 #: his own errors, relative: Table VII of de Vahl Davis 1983 as the notes on Datum Flow 0.1.3 quote it
 HIS = dict(zip(RAS, (1e-3, 2e-3, 3e-3, 1e-2)))
@@ -26,10 +23,11 @@ def exact(**where: Any) -> Value:
     return last("cavity", "value", by="resolution", err="err", method="spectral-boussinesq", **where)
 
 
-def printed_of(name: str, ra: float, quantity: str, share: float, **words: Any) -> Claim:
-    """A printed number, with a share of it for its error."""
+def printed_of(name: str, ra: float, quantity: str, share: float = 0.0, **words: Any) -> Claim:
+    """A printed number, with a share of it for its error, else its uncertainty."""
     id = f"{name}-{ra:.0e}".replace("+0", "")
     number = published(id).value
+    share = share or published(id).uncertainty/number
     return Claim(id=id, printed=f"{number:.9g}", value=exact(ra=ra, quantity=quantity), expect=number,
                  within=share*number, **words)
 
@@ -47,6 +45,13 @@ def printed() -> Iterator[Claim]:
                          statement=f"nu of the cavity at Ra {ra:g} by smooth particles{words}")
 
 
+    for ra, column in product(RAS, (1, 3)):
+        yield printed_of(f"ethersph-reference-{column}", ra, "nu", **ETHERSPH,
+                         because="half of the last digit", after="the spectral number was known",
+                         statement=f"nu of the cavity at Ra {ra:g} by reference {column}, from which errors "
+                                   "of smooth particles are taken")
+
+
 def errors() -> Iterator[Claim]:
     """What EtherSPH says of its errors."""
     for ra, (version, words) in product(RAS, VERSIONS.items()):
@@ -61,13 +66,7 @@ def errors() -> Iterator[Claim]:
 
 def again(name: str, ra: float) -> Value:
     """A number of the printed run, 100 rows with the code's own walls, made again."""
-    asked = one("ethersph", name, "factor < 1", ra=ra, rows=100)
-
-    def answer(tables: Tables) -> Measured:
-        path = RESULTS/"bench"/"ethersph.csv"
-        return asked(Tables(ethersph=read(path)) if path.exists() else Tables())
-    answer.__doc__ = str(asked)
-    return of(answer)
+    return bench(one("ethersph", name, "factor < 1", ra=ra, rows=100))
 
 
 def made_again() -> Iterator[Claim]:

@@ -6,10 +6,11 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from studies.cost.tables import GRID, LUCY, POINTS, RUN, SERIES, with_err
+from studies.cost.tables import BOUSSINESQ, GRID, LAMMPS, LUCY, POINTS, RUN, SERIES, with_err
 from studies.kit.fits import crossing, power_law
 from studies.kit.stats import Measured, seed_means
-from studies.kit.table import Tables, groups
+from studies.kit.store import RESULTS
+from studies.kit.table import Tables, groups, read
 
 #: main quantity of each scene
 FIELD = {
@@ -37,6 +38,7 @@ def errors(tables: Tables) -> dict[str, Rows]:
     if "errors" in tables and "runs" in tables:
         steps = tables.get("steps", NOTHING)
         points = over_seeds(tables["errors"], tables["runs"], steps)
+        points = pd.concat([points, pd.DataFrame(lammps())])
         rows["points"] = points.to_dict("records")
         rows["needed"] = list(needed(points))
         rows["rivals"] = list(rivals(points))
@@ -64,6 +66,22 @@ def with_steps(errors: pd.DataFrame, steps: pd.DataFrame) -> pd.DataFrame:
     rows = errors.merge(chosen[[*key, "time_error"]], on=key, how="left")
     err = np.hypot(rows.error_err, rows.time_error.fillna(0))
     return rows.assign(error_err=err).drop(columns="time_error")
+
+
+def lammps() -> Iterator[Row]:
+    """K of LAMMPS' convection of a Boussinesq fluid, against that of the spectral one; one seed."""
+    if not (path := RESULTS/"bench"/"lammps.csv").exists():
+        return
+    table = read(path)
+    table = table[table["style"].isin(LAMMPS) & table.quantity.isin(["K", "seconds"])]
+    for (style, rows), pair in groups(table, ["style", "rows"]):
+        of = {row["quantity"]: row for row in pair.to_dict("records")}
+        if len(of) == 2:
+            K, seconds = of["K"], of["seconds"]
+            yield {"scene": BOUSSINESQ, "quantity": "K", "method": LAMMPS[style], "resolution": rows,
+                   "points": 2*rows**2, "seeds": 1, "setup_s": 0.0,
+                   **with_err(error=Measured(abs(K["value"]/K["expected"] - 1), K["err"]/K["expected"]),
+                              cpu_s=Measured(seconds["value"], seconds["err"]))}
 
 
 def needed(points: pd.DataFrame) -> Iterator[Row]:

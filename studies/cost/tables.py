@@ -17,19 +17,21 @@ JITTERED = "fixed-jittered-plates"
 LUCY = "spam"
 MOVING = "moving"
 CARRIED = "moving-delaunay"
+#: scene of another fluid, which `bench` runs; LAMMPS' styles there -> their names here
+BOUSSINESQ, LAMMPS = "boussinesq", {"sph": "LAMMPS sph", "rheo": "LAMMPS RHEO"}
 METHODS = (GRID, MAC, PYPDE, SPECTRAL, NEAREST, LATTICE, WIDE, JITTERED, "fixed-jittered-delaunay",
            "fixed-jittered-0.2-plates", LUCY, "spam-monaghan", "spam-wendland-c2", "spam-less-static-50",
-           "spam-corrected", CARRIED, MOVING)
+           "spam-corrected", CARRIED, MOVING, *LAMMPS.values())
 
 RUN = "scene method resolution seed"
 SERIES = "scene quantity method"
 COUNT = {"points": ("number of points, of cells or of functions", ""),
          "resolution": ("points to the wavelength (taylor-green, sound) or rows to the height, of "
                         "spectral-gas functions along an axis", "")}
-SECONDS = {"cpu_s": ("CPU seconds of all steps and of setting up", "s")}
+SECONDS = {"cpu_s": ("CPU seconds of all steps and of setting up; of LAMMPS 90 free-fall times", "s")}
 POINTS = Table.of(
     "points", f"{SERIES} resolution", "points seeds error error_err cpu_s cpu_s_err setup_s",
-    means=COUNT | SECONDS, about="Error against cost, means over seeds.")
+    means=COUNT | SECONDS, about="Error against cost, means over seeds; boussinesq is from bench.")
 TABLES = (
     Table.of("runs", RUN, "points of_limit dt steps run_s run_s_err setup_s setup_s_err", means=COUNT,
              about="The run at the method's own best step (py-pde's by formula)."),

@@ -1,12 +1,7 @@
 """Claims about a flux that survives."""
-import pandas as pd
-
 from studies.hardcases.robust import BLENDED, EDGES, HELD, PAIRS, STABLE
-from studies.kit.ask import Value, farthest, largest, largest_of, last, least, of, one, power, total
+from studies.kit.ask import Value, bench, farthest, largest, largest_of, last, least, one, power, total
 from studies.kit.claim import Claim
-from studies.kit.stats import CannotTell, Measured
-from studies.kit.sweep import RESULTS
-from studies.kit.table import Tables, read
 
 ENDS = "a run ends or it does not"
 WORDS = dict(zip(EDGES, ("fixed points on a lattice", "fixed points, jittered", "points that move with their "
@@ -38,16 +33,11 @@ def off(method: str = STABLE[0]) -> Value:
 def cost(words: str) -> Value:
     """Of an evaluation with the flux, as `make bench` timed it, over one of the same edges without, edge by
     edge; the largest of lattice and Delaunay."""
-    def value(tables: Tables) -> Measured:
-        path = RESULTS/"bench"/"points_speed.csv"
-        table = read(path) if path.exists() else pd.DataFrame(columns=["what", "ns_per_particle_evaluation"])
-        ns = table.set_index("what")["ns_per_particle_evaluation"]
-        pairs = [(f"{kind}, entropy-stable{words}", f"fixed points, {plain}, edge by edge")
-                 for kind, plain in (("lattice", "h = 2 a"), ("Delaunay", "Delaunay"))]
-        if lacking := [name for pair in pairs for name in pair if name not in ns]:
-            raise CannotTell(f"make bench has not timed {lacking[0]} yet")
-        return Measured(float(max(ns[stable]/ns[plain] for stable, plain in pairs)), 0.0)
-    return of(value)
+    def ns(what: str) -> Value:
+        return one("points_speed", "ns_per_particle_evaluation", what=what)
+    return bench(largest_of(*(
+        ns(f"{kind}, entropy-stable{words}")/ns(f"fixed points, {plain}, edge by edge")
+        for kind, plain in (("lattice", "h = 2 a"), ("Delaunay", "Delaunay")))))
 
 
 CLAIMS = (

@@ -19,7 +19,8 @@ import pandas as pd
 
 from studies.kit import fits, stats
 from studies.kit.stats import Measured
-from studies.kit.table import Tables
+from studies.kit.store import RESULTS
+from studies.kit.table import Tables, read
 from studies.kit.value import (
     NoRows,
     Selection,
@@ -33,8 +34,8 @@ from studies.kit.value import (
 )
 
 __all__ = [
-    "NoRows", "Value", "WrongQuestion", "curve", "each", "farthest", "farthest_of", "farthest_per", "first",
-    "largest", "largest_of", "largest_per", "last", "least", "of", "one", "over_seeds", "power",
+    "NoRows", "Value", "WrongQuestion", "bench", "curve", "each", "farthest", "farthest_of", "farthest_per",
+    "first", "largest", "largest_of", "largest_per", "last", "least", "of", "one", "over_seeds", "power",
     "question", "rows", "share", "spread", "total",
 ]
 
@@ -190,6 +191,16 @@ def per_seed(value: Value) -> Value:
     def answer(tables: Tables) -> Measured:
         return stats.over_seeds([seed.value for seed in each("seed", value, tables)])
     return Value(answer, f"mean over seeds of {value}", value.asks)
+
+
+def bench(asked: Value) -> Value:
+    """A question to a table of `bench`, which belongs to no study."""
+    name = asked.asks[0].table
+
+    def answer(tables: Tables) -> Measured:
+        path = RESULTS/"bench"/f"{name}.csv"
+        return asked(Tables({name: read(path)}) if path.exists() else Tables())
+    return Value(answer, str(asked))
 
 
 def one_of(pick: Pick, values: Sequence[Value]) -> Value:

@@ -7,21 +7,10 @@ study `onset` judges claims on critical Rayleigh numbers.
 from dataclasses import replace
 from typing import Any
 
-from studies.kit.ask import of
+from studies.kit.ask import bench, largest
 from studies.kit.claim import Claim
-from studies.kit.stats import CannotTell, Measured
-from studies.kit.sweep import RESULTS
-from studies.kit.table import Tables, read
 from studies.rb.claims import arithmetic, energies, fields, freezing, grid, points, space, today
 from studies.rb.tables import particles
-
-
-def most_particles(tables: Tables) -> Measured:
-    """Particles of the largest run of `make bench`, whose table belongs to no study"""
-    path = RESULTS/"bench"/"spam_speed.csv"
-    if not path.exists():
-        raise CannotTell("only make bench has runs of a million particles: it has not been run")
-    return Measured(float(read(path)["particles"].max()), 0.0)
 
 
 def undecided(name: str, place: str, statement: str, reason: str, printed: str = "", **more: Any) -> Claim:
@@ -32,7 +21,7 @@ def undecided(name: str, place: str, statement: str, reason: str, printed: str =
 
 OPEN = (
     Claim(id="khp95-million", source="KHP95 Sec. VI", printed="a million", at_least=0.95e6,
-          value=of(most_particles), evidence="bench/spam_speed.csv",
+          value=bench(largest("spam_speed", "particles")), evidence="bench/spam_speed.csv",
           statement="a million particles could be used: most particles of a run here",
           because="a million to two digits; machines have grown since"),
     undecided("ra-extrapolated", "Sec. V",
