@@ -1,4 +1,6 @@
 """Edges evaluated once: they bring points what rows do one by one, whoever shares the work."""
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from test_entropy_stable import closed, violent
@@ -110,7 +112,7 @@ def test_lanes_are_fields_of_points():
     points, lanes = lines.view(Point)[:, 0], np.empty((int(COLUMNS), 64))
     read_lanes(lines, which, np.uint64(64), lanes)
     assert np.array_equal(lanes, [points[name][which[64:]] for name in FIELDS])
-    end = end_at(lanes, 5, points[which[69]])
+    end = end_at(lanes, 5, SimpleNamespace(eps=points["eps"][which[69]], g=points["g"][which[69]]))
     assert all(getattr(end, name) == points[name][which[69]] for name in End._fields)
 
 

@@ -32,10 +32,9 @@ def _sound(first, last, eos, points):
 
 
 @jit
-def _differ(first, last, slopes, V, beyond, points, differences):
-    """Slopes; of what friction and heat see, V grad v: that of the flow, but beyond a plate."""
+def _differ(first, last, slopes, beyond, points, differences):
+    """Of what friction and heat see, V grad v: that of the flow, but beyond a plate."""
     for i in range(first, last):
-        divided(i, i + 1, slopes, V, points)
         q, d = slopes[i], differences[i]
         d[0], d[1], d[2], d[3] = q[1], q[5], q[2], q[6]
     rows, image, sx, sy = beyond
@@ -105,8 +104,9 @@ class Stable(Limits, FixedSums):
         self.surround(state)
         threads(_sound, len(points), method.eos, points)
         threads(sweep, n, Slopes(), points, self.edges, self.slopes)
-        threads(_differ, n, self.slopes, self.at.V, self.beyond, points, self.differences)
+        threads(divided, n, self.slopes, self.at.V, points)
         _mirrored(self.images.origin, points, n)
+        threads(_differ, n, self.slopes, self.beyond, points, self.differences)
         for stage in self.exchange.stages:
             if isinstance(stage, Heating):
                 stage.use(self.differences, self.at)
