@@ -34,7 +34,8 @@ def points() -> Iterator[Case]:
         yield MovingRun(scene=where, variant=MOTIONS[name], seed=seed)
     for motion, seed in product(DRIFT_MOTIONS.values(), SEEDS):
         yield DriftRun(scene=few, variant=motion, seed=seed)
-    for name, seed in product(FINER, SEEDS):
+    # a third seed of those whose claims decide an equation
+    for name, seed in (*product(FINER, SEEDS[:2]), (FINER[0], SEEDS[2]), (FINER[2], SEEDS[2])):
         yield DriftRun(scene=many, variant=DRIFT_MOTIONS[name], seed=seed)
 
 
