@@ -180,8 +180,8 @@ def grids() -> Iterator[str]:
     yield f"it is {of('khp95-ke-10000', form='.6f')} (printed 0.00481"
     truth = [one("means", "ke", **SPECTRAL | {"ra": ra})(RB).value for ra in (5e3, 1e4)]
     yield f"spectral method has {truth[0]:.11f} and {truth[1]:.11f}"
-    yield f"leave out {percent('own-rb-limits-gas-ke', '.1f')} % of its K"
-    yield f"and {percent('own-rb-limits-boussinesq-nu', '.1f')} % of its Nu"
+    yield f"of the grids' limits in {percent('own-rb-limits-gas-ke', '.1f')} % of the flows"
+    yield f"its Nu of the Boussinesq fluid in {percent('own-rb-limits-boussinesq-nu', '.1f')} %"
     yield f"reads {of('own-ke-10000-line')} at Ra 10 000"
     yield f"to {percent('khp95-ke-line', '.1f')} % of its largest value"
     yield f"by {percent('khp95-ra-figures')} %; the paper has it"
@@ -271,7 +271,7 @@ def costs() -> Iterator[str]:
            f"N^{of('own-speed-growth-fixed')} (lattice)")
     yield f"costs {of('own-streams-vortex-still')} times the grid's seconds at rest"
     yield f"from {of('own-streams-vortex-crossing')} times the flow's speed on"
-    yield f"and {of('own-streams-vortex-fast')} of those of the cheapest"
+    yield f"costs {of('own-streams-vortex-fast')} of the seconds of the cheapest"
     yield (f"a vortex of even density at {cheaper('gresho', 'velocity')}, a hot spot at "
            f"{cheaper('spot', 'temperature')}, a contact at {cheaper('contact', 'density')}, a stripe that "
            f"is wound up at {cheaper('mixing', 'stripe')}, "
