@@ -14,7 +14,7 @@ class Rusanov(NamedTuple):
 
 
 @pair_term(Rusanov, 4)
-def _(term, a, b, ab):          # ab.sx, ab.sy: half of S
+def _(term, a, b, ab):      # points have rho, vx, vy, T, P, eps (energy per volume); (ab.sx, ab.sy) = S/2
     f = term.c*(ab.sx*ab.sx + ab.sy*ab.sy)**0.5
     return f*(b.rho - a.rho), f*(b.rho*b.vx - a.rho*a.vx), f*(b.rho*b.vy - a.rho*a.vy), f*(b.eps - a.eps)
 

