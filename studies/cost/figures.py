@@ -54,7 +54,7 @@ def work_precision(points: pd.DataFrame, needed: pd.DataFrame) -> Figure:
         panel(axes, points.query(f"{here} and error > 0"), needed.query(here), title)
     for axes in (wide, narrow[0]):
         axes.set_ylabel("relative error")
-    legend(page, all_axes)
+    legend(page, np.array(all_axes))
     page.suptitle("1 % is cheapest on grids, then on points; smooth particles reach it with corrected sums\n"
                   "the best of each family, at its own best step, one thread, with setting up; bars: 95 %")
     return page
@@ -125,10 +125,10 @@ def loglog(axes: Axes, title: str, xlabel: str) -> None:
         numbered(axis)
 
 
-def legend(page: Figure, all_axes: list[Axes]) -> None:
+def legend(page: Figure, all_axes: np.ndarray) -> None:
     """One for all panels, below; without bars, which hide markers."""
     handles: dict = {}
-    for axes in all_axes:
+    for axes in all_axes.flat:
         bars, names = axes.get_legend_handles_labels()
         handles |= dict(zip(names, bars, strict=True))
     order = [name for name in METHODS if name in handles]
