@@ -41,7 +41,8 @@ class Fluxes(NamedTuple):
     de_a = -sum_b (1/2) [(P/rho^2)_a + (P/rho^2)_b] : (v_b - v_a) grad w - sum_b [(Q/rho^2)_a +
     (Q/rho^2)_b].grad w
 
-    Both are linear in what b brings, P/rho^2, v, 1, h = Q/rho^2 + v.P/2rho^2. Pairs sum these times grad w.
+    Both are linear in what b brings: P/rho^2, h = Q/rho^2 + v.P/2rho^2, v and 1. Pairs sum these times grad
+    w, and `particles.smooth.fluxes.closed` has the rest.
     """
 
 

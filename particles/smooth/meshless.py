@@ -133,10 +133,10 @@ def middle(a, b, x, y):
 @formula
 def limited(own, other, value):
     """Within half of the difference of the own value, a quarter of the mean    [App. B, psi_1, psi_2]"""
-    mean, d = 0.5*(own + other), abs(own - other)
-    if own < other:
-        return max(own - 0.5*d, min(mean + 0.25*d, value))
-    return min(own + 0.5*d, max(mean - 0.25*d, value))
+    # both ends without asking which is the lower one: that branch would be mispredicted for every other pair
+    d = other - own
+    one, end = own - 0.5*d, 0.5*(own + other) + 0.25*d
+    return max(min(one, end), min(max(one, end), value))
 
 
 def push(term, a, b, ab):

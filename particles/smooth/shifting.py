@@ -44,7 +44,7 @@ class Slopes(NamedTuple):
 
 
 class Shifting(NamedTuple):
-    """Acceleration, heating, d rho/dt and d ln m/dt; half : h of the papers."""
+    """Acceleration, heating, d rho/dt, nothing, and d ln m/dt; half : h of the papers."""
     half: float
 
 
@@ -61,7 +61,7 @@ def _(term, a, b, ab):
     return u*wx, v*wx, T*wx, 0.0, u*wy, v*wy, T*wy, 0.0
 
 
-@pair_term(Shifting, 5)
+@pair_term(Shifting, 6)
 def _(term, a, b, ab):
     x, y, u, v, wx, wy = a.x - b.x, a.y - b.y, a.vx - b.vx, a.vy - b.vy, b.V*ab.wx, b.V*ab.wy
     # two particles in one place exert no force on each other
@@ -73,7 +73,7 @@ def _(term, a, b, ab):
     mixed = DIFFUSION*term.half*(a.c + b.c)*(a.rho - b.rho - steep)*F
     return ((drag - carried)*u - p*wx, (drag - carried)*v - p*wy,
             a.P*a.irho*closing - 0.5*drag*(u*u + v*v) + heat + carried*energy,
-            a.rho*(closing + 2*own) + (b.rho - a.rho)*other + mixed, own + carried)
+            a.rho*(closing + 2*own) + (b.rho - a.rho)*other + mixed, 0.0, own + carried)
 
 
 class DeltaPlus(Led):
@@ -82,14 +82,13 @@ class DeltaPlus(Led):
     numbers = np.dtype([*DirectState.descr,
                         *((name, "f8") for name in "V rho P e c per_w dx dy gx gy".split())])
     vectors = (("dx", "dy"), ("gx", "gy"))
-    columns = 5
 
     def __init__(self, method: Any, n: int, threads: Threads):
         super().__init__(method, n, threads)
         if held := [wall for wall in method.walls if type(wall) in fixed_points.kinds]:
             raise ValueError(f"{type(held[0]).__name__} holds particles whose density no continuity gives: "
                              "take images behind the plates")
-        self.uneven, self.U = np.empty((n, 7)), 0.0
+        self.pull, self.uneven, self.U = np.zeros((n, 6)), np.empty((n, 7)), 0.0
 
     @classmethod
     def complete(cls, state: np.ndarray, rho: Any, m: float) -> np.ndarray:
@@ -131,7 +130,7 @@ class DeltaPlus(Led):
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
         """d(x, y, vx, vy, e, rho, m)/dt."""
         super().rates(state, out)
-        out[5], out[6] = self.pull[:, 3], self.method.m*self.V*state[5]*self.pull[:, 4]
+        out[5], out[6] = self.pull[:, 3], self.method.m*self.V*state[5]*self.pull[:, 5]
 
 
 @jit

@@ -10,28 +10,19 @@ from continuum.fluid import (
     energy,
     pressure,
     sound_speed,
-    stress,
     temperature,
     viscosity,
 )
 from continuum.jit import formula, jit
 from particles.lists import Listed, PairLists, unphysical
-from particles.pairs import Pairs, sweep
+from particles.pairs import Pairs, aligned, sweep
+from particles.smooth.fluxes import Flux, closed, fluxes, image_fluxes
 from particles.terms import DirectFluxes, Fluxes, finish, summand
 from particles.threads import Threads
-from particles.walls import image_flux, image_pressure
+from particles.walls import image_pressure
 
 Moving = np.dtype([(name, "f8") for name in ("vx", "vy", "T", "s")])
-#: of P/rho^2, h = Q/rho^2 + v.P/2rho^2, v: one cache line
-Flux = np.dtype([(name, "f8") for name in ("xx", "xy", "hx", "vx", "one", "yy", "hy", "vy")])
 DirectState = np.dtype([(name, "f8") for name in ("x", "y", "vx", "vy", "T", "P_rho2", "irho", "eta", "k")])
-
-
-def aligned(points: int, kind: np.dtype) -> np.ndarray:
-    """Records that begin with a cache line."""
-    room = np.zeros(points*kind.itemsize + 64, np.uint8)
-    first = -room.ctypes.data % 64
-    return room[first:first + points*kind.itemsize].view(kind)
 
 
 class SmoothSums(Listed, ABC):
@@ -139,14 +130,14 @@ class Nested(SmoothSums):
 
     def push(self, state: np.ndarray, less: np.ndarray, pairs: Pairs, out: np.ndarray) -> None:
         self.threads(sweep, self.n, *self.exchange(less), pairs, self.pull)
-        self.threads(_closed, self.n, state, self.flux, self.pull, out)
+        self.threads(closed, self.n, state, self.flux, self.pull, out)
 
     def exchange(self, less: np.ndarray) -> tuple[Any, np.ndarray]:
         around = self.around
-        self.threads(_fluxes, around.rows, self.method.law, around.rho, around.vx, around.vy, around.T, less,
+        self.threads(fluxes, around.rows, self.method.law, around.rho, around.vx, around.vy, around.T, less,
                      self.slopes, self.flux)
         for wall, parent, first, last in around.blocks:
-            _image_fluxes(first, last, wall, parent, around.rho, around.vx, around.vy, less, self.flux)
+            image_fluxes(first, last, wall, parent, around.rho, around.vx, around.vy, less, self.flux)
         return Fluxes(), self.flux
 
 
@@ -217,38 +208,6 @@ def _finish(first, last, kind, moving, slopes):
 
 
 @jit
-def _fluxes(first, last, law, rho, vx, vy, T, less, slopes, flux):
-    """P/rho^2 and Q/rho^2 with P = (P - static) I - stress, Q = -k grad T."""
-    for i in range(first, last):
-        xx, yx, Tx, _, xy, yy, Ty, _ = slopes[i]  # xy: dvx/dy
-        sxx, sxy, syy = stress(viscosity(law, rho[i], T[i]), 0.0, xx, yx, xy, yy)
-        k, f, a = conductivity(law, rho[i], T[i]), 1/rho[i]**2, flux[i]
-        a.vx, a.vy = vx[i], vy[i]
-        a.xx, a.xy, a.yy = (less[i] - sxx)*f, -sxy*f, (less[i] - syy)*f
-        wx, wy = _work(a)
-        a.hx, a.hy = wx - k*Tx*f, wy - k*Ty*f
-
-
-@formula
-def _work(a):
-    """v.P/2rho^2."""
-    return 0.5*(a.vx*a.xx + a.vy*a.xy), 0.5*(a.vx*a.xy + a.vy*a.yy)
-
-
-@jit
-def _image_fluxes(first, last, wall, parent, rho, vx, vy, less, flux):
-    """Stress and heat flux copied from the parents, pressure by the wall's rule    [KHP95, Sec. IV]"""
-    for i in range(first, last):
-        p = parent[i - first]
-        a, b, f, (bx, by) = flux[i], flux[p], (less[i] - less[p])/rho[i]**2, _work(flux[p])
-        a.vx, a.vy = vx[i], vy[i]
-        xy, qx, qy = image_flux(wall, b.xy, b.hx - bx, b.hy - by, rho[i])
-        a.xx, a.xy, a.yy = b.xx + f, xy, b.yy + f
-        wx, wy = _work(a)
-        a.hx, a.hy = wx + qx, wy + qy
-
-
-@jit
 def _direct(first, last, law, x, y, rho, vx, vy, T, less, records):
     for i in range(first, last):
         a = records[i]
@@ -268,18 +227,6 @@ def _pushed(first, last, state, pull, out):
     for i in range(first, last):
         out[0, i], out[1, i] = state[2, i], state[3, i]
         out[2, i], out[3, i], out[4, i] = pull[i, 0], pull[i, 1], pull[i, 2]
-
-
-@jit
-def _closed(first, last, state, flux, pull, out):
-    """The same of what partners bring, times x in columns 0:8, y in 8:16, and of what is a particle's own."""
-    for i in range(first, last):
-        a, p, x, y = flux[i], pull[i], pull[i, 4], pull[i, 12]
-        own_x, own_y, sent_x, sent_y = a.xx*x + a.xy*y, a.xy*x + a.yy*y, p[0] + p[9], p[1] + p[13]
-        heat = a.hx*x + a.hy*y + p[2] + p[14] + 0.5*(a.xx*p[3] + a.xy*(p[7] + p[11]) + a.yy*p[15])
-        work = a.vx*(own_x + 0.5*sent_x) + a.vy*(own_y + 0.5*sent_y)
-        out[0, i], out[1, i] = state[2, i], state[3, i]
-        out[2, i], out[3, i], out[4, i] = -own_x - sent_x, -own_y - sent_y, work - heat
 
 
 @jit
