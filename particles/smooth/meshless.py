@@ -152,8 +152,8 @@ def push(term, a, b, ab):
     return fx - 2*P*Sx, fy - 2*P*Sy, work + 0.5*(fx*u + fy*v) - (a.k + b.k)*F*(b.T - a.T)
 
 
-for kind in (Reproducing, Meshless):
-    pair_term(kind, 3)(push)
+pair_term(Reproducing, 3)(push)
+pair_term(Meshless, 3)(push)
 
 
 class OverFaces(Corrected):
