@@ -9,7 +9,7 @@ import numpy as np
 
 from continuum.fluid import conductivity, energy, stress, temperature, viscosity
 from particles.neighbours import make_lists, sort_into_cells, u32, u64
-from particles.pairs import Pairs, entries, interpolate
+from particles.pairs import Pairs, entries, interpolate, sweep
 
 
 class Smoothed(NamedTuple):
@@ -78,10 +78,11 @@ class PlateHeat(NamedTuple):
 
     def __call__(self, sums: Any, state: np.ndarray) -> float:
         """From densities and gradients that are up to date."""
-        less, rates = sums.less if self.pressure else np.zeros_like(sums.less), np.empty_like(state)
-        sums.push(state, less, pairs_behind(sums, self.side), rates)
-        _, _, ax, ay, heat = rates[:5]
-        power = sums.shares(state)*(state[2]*ax + state[3]*ay + heat)
+        term, records = sums.exchange(sums.less if self.pressure else np.zeros_like(sums.less))
+        pull = np.zeros((sums.around.rows, sums.pull.shape[1]))
+        sums.threads(sweep, sums.n, term, records, pairs_behind(sums, self.side), pull)
+        ax, ay, heat, _, work = pull[:sums.n, :5].T
+        power = sums.shares(state)*(state[2]*ax + state[3]*ay + heat + work)
         return float(sums.method.m*np.sum(power)/sums.method.box[0])
 
 

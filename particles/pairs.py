@@ -53,13 +53,6 @@ def empty_pairs(rows: int, entries: int) -> Pairs:
     return Pairs(start, length, listed, first, taken, near, *np.empty((2, entries)))
 
 
-def aligned(points: int, kind: np.dtype) -> np.ndarray:
-    """Records that begin with a cache line."""
-    room = np.zeros(points*kind.itemsize + 64, np.uint8)
-    first = -room.ctypes.data % 64
-    return room[first:first + points*kind.itemsize].view(kind)
-
-
 def entries(pairs: Any, rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Row and entry of all pairs of some rows, in their order."""
     first, taken = (q[rows].astype(np.int64) for q in (pairs.first, pairs.taken))

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from continuum.jit import generic
+from continuum.jit import formula, generic
 from particles.pairs import pair_term
 
 
@@ -22,16 +22,12 @@ class ArithmeticGradients(NamedTuple):
 
 
 @generic
-def summand(term, rho, vx, vy, T):
-    """Fields of a record (vx, vy, T, s), as the pair term wants them."""
+def density_factor(term, rho):
+    """What the records hold as s, so that 1/rho_ab costs little in the loop."""
 
 
-@generic
-def finish(term, a, sums):
-    """Make gradients at a record of its sums over partners, in place."""
-
-
-finish.of(ArithmeticGradients)(lambda term, a, sums: None)
+density_factor.of(Gradients)(lambda term, rho: 1/np.sqrt(rho))
+density_factor.of(ArithmeticGradients)(lambda term, rho: rho)
 
 
 class Fluxes(NamedTuple):
@@ -40,48 +36,35 @@ class Fluxes(NamedTuple):
     a_a = -sum_b [(P/rho^2)_a + (P/rho^2)_b].grad w,
     de_a = -sum_b (1/2) [(P/rho^2)_a + (P/rho^2)_b] : (v_b - v_a) grad w - sum_b [(Q/rho^2)_a +
     (Q/rho^2)_b].grad w
-
-    Both are linear in what b brings: P/rho^2, h = Q/rho^2 + v.P/2rho^2, v and 1. Pairs sum these times grad
-    w, and `particles.smooth.fluxes.closed` has the rest.
     """
 
 
 @pair_term(Gradients, 8)
 def _(term, a, b, ab):
-    x, y = ab.wx, ab.wy
-    return b.vx*x, b.vy*x, b.T*x, b.s*x, b.vx*y, b.vy*y, b.T*y, b.s*y
-
-
-@summand.of(Gradients)
-def _(term, rho, vx, vy, T):
-    s = 1/np.sqrt(rho)
-    return s*vx, s*vy, s*T, s
-
-
-@finish.of(Gradients)
-def _(term, a, sums):
-    """s_a sum_b s_b (f_b - f_a) grad w from sums of s_b f_b grad w."""
-    x, y = sums[3], sums[7]
-    sums[0], sums[1], sums[2] = a.s*sums[0] - a.vx*x, a.s*sums[1] - a.vy*x, a.s*sums[2] - a.T*x
-    sums[4], sums[5], sums[6] = a.s*sums[4] - a.vx*y, a.s*sums[5] - a.vy*y, a.s*sums[6] - a.T*y
+    return _differences(a, b, a.s*b.s*ab.wx, a.s*b.s*ab.wy)
 
 
 @pair_term(ArithmeticGradients, 8)
 def _(term, a, b, ab):
     f = 2/(a.s + b.s)
-    x, y, u, v, T = f*ab.wx, f*ab.wy, b.vx - a.vx, b.vy - a.vy, b.T - a.T
-    return u*x, v*x, T*x, 0.0, u*y, v*y, T*y, 0.0
+    return _differences(a, b, f*ab.wx, f*ab.wy)
 
 
-summand.of(ArithmeticGradients)(lambda term, rho, vx, vy, T: (vx, vy, T, rho))
+@formula
+def _differences(a, b, x, y):
+    """Differences of vx, vy, T times x, then times y; s makes them four, one vector register."""
+    u, v, T, s = b.vx - a.vx, b.vy - a.vy, b.T - a.T, b.s - a.s
+    return u*x, v*x, T*x, s*x, u*y, v*y, T*y, s*y
 
 
-@pair_term(Fluxes, 16)
+@pair_term(Fluxes, 5)
 def _(term, a, b, ab):
-    # eight fields one behind the other, times x and times y: four vector instructions
-    x, y = ab.wx, ab.wy
-    return (b.xx*x, b.xy*x, b.hx*x, b.vx*x, b.one*x, b.yy*x, b.hy*x, b.vy*x,
-            b.xx*y, b.xy*y, b.hx*y, b.vx*y, b.one*y, b.yy*y, b.hy*y, b.vy*y)
+    # four equal sums in one vector register; the fourth is not used
+    fx = (a.xx + b.xx)*ab.wx + (a.yx + b.yx)*ab.wy
+    fy = (a.xy + b.xy)*ab.wx + (a.yy + b.yy)*ab.wy
+    q = (a.qx + b.qx)*ab.wx + (a.qy + b.qy)*ab.wy
+    v = (a.vx + b.vx)*ab.wx + (a.vy + b.vy)*ab.wy
+    return -fx, -fy, -q, -v, -0.5*((b.vx - a.vx)*fx + (b.vy - a.vy)*fy)
 
 
 class DirectFluxes(NamedTuple):

@@ -96,7 +96,7 @@ def test_cost_depends_on_no_method_besides_its_own(copy):
     assert len(cases) > 50 and not changed(cases, copy)
     for file, first, new in METHODS:
         edit(copy, file, f"{new}, {first}", first)
-    edit(copy, "particles/terms.py", "b.hx*x, b.vx*x, b.one*x", "b.hx*y, b.vx*x, b.one*x")
+    edit(copy, "particles/terms.py", "q = (a.qx + b.qx)*ab.wx", "q = (a.qx - b.qx)*ab.wx")
     assert changed(cases, copy) == [case for case in cases if "spam" in case.label]
 
 

@@ -160,28 +160,6 @@ def test_galilean_invariance(spam):
     assert close(rates(spam, moving)[2:], rates(spam, state)[2:]) < 1e-13
 
 
-def test_fields_that_are_the_same_everywhere_have_no_gradient():
-    """Sums of what partners bring cancel: 30 terms of 7 times a slope of 0.1, to the last bit of each."""
-    sums, state, _ = prepare(free(), crowd(BOX, COLUMNS, ROWS))
-    state[2], state[3], state[4] = 7.0, -3.0, 1.0
-    sums.look_at(state)
-    assert abs(sums.gradient).max() < 1e-14
-
-
-@pytest.mark.parametrize("kind", [Nested, Direct])
-def test_pairs_push_alone_as_in_company(kind):
-    """Rates by the first half of each particle's pairs, and by the rest, are those by all."""
-    sums, state, _ = prepare(free(transport=kind), crowd(BOX, COLUMNS, ROWS))
-    sums.prepare(state)
-    pairs, (whole, one, other) = sums.around.pairs, np.empty((3, *state.shape))
-    half = (pairs.taken//2).astype(pairs.taken.dtype)
-    for out, some in ((whole, pairs), (one, pairs._replace(taken=half)),
-                      (other, pairs._replace(first=pairs.first + half, taken=pairs.taken - half))):
-        sums.push(state, sums.less, some, out)
-    assert (whole[:2] == state[2:4]).all() and abs(one[2:]).max() > 1e-3
-    assert close(one[2:] + other[2:], whole[2:]) < 1e-13
-
-
 @pytest.mark.parametrize("side", [-4.5, 4.5, np.nextafter(-4.5, -5), np.nextafter(4.5, 5)])
 def test_a_particle_on_the_seam_has_all_its_neighbours(side):
     state = crowd(BOX, COLUMNS, ROWS)

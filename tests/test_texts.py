@@ -310,7 +310,8 @@ def breaks() -> Iterator[str]:
     yield "with {:.2f} (printed), {:.2f} (Wendland C2), {:.2f} (corrected) of the exact".format(*vacuum)
     yield f"K is {percent('khp95-freeze-static')} % of the grid's in the limit of no step"
     flux = {name: CLAIMS.measured[f"own-stable-{name}"] for name in (
-        "convection", "sod-rings", "turns-lattice", "turns-jittered", "turns-moving", "plateau", "sedov", "noh")}
+        "convection", "sod-rings", "turns-lattice", "turns-jittered", "turns-moving", "plateau", "sedov",
+        "noh")}
     yield f"K is {100*(1 - flux['convection']):.2f} % lower than without"
     yield f"v rings by {100*flux['sod-rings']:.0f} %"
     yield (f"are {max(flux['sedov'], flux['noh']):.2f} spacings off at most, the state behind a shock of "
@@ -356,8 +357,9 @@ def front() -> Iterator[str]:
     right = [error(particles(1e4, n, "corrected")).value for n in (50, 70)]
     yield f"K is {', '.join(f'{100*off:.1f}' for off in right)} % too high with 50, 70 rows"
     yield f"{100*right[0]:.1f} % high (`spam`: {-100*error(particles(1e4, 50), 'Kg').value:.0f} % low)"
-    yield f"K is then {100*right[0]:.1f} % high with 50 rows, where classic SPH (`spam-sph`) is " \
-          f"{-100*error(particles(1e4, 50, 'sph')).value:.0f} % low, and {percent('own-today-corrected-limit')} % off"
+    classic = -100*error(particles(1e4, 50, "sph")).value
+    yield (f"K is then {100*right[0]:.1f} % high with 50 rows, where classic SPH (`spam-sph`) is "
+           f"{classic:.0f} % low, and {percent('own-today-corrected-limit')} % off")
     classic, corrected = (evaluation(name) for name in ("spam-sph", "spam-corrected"))
     yield f"An evaluation costs {corrected/classic:.1f} times a classic one"
 

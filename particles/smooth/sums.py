@@ -10,18 +10,19 @@ from continuum.fluid import (
     energy,
     pressure,
     sound_speed,
+    stress,
     temperature,
     viscosity,
 )
 from continuum.jit import formula, jit
 from particles.lists import Listed, PairLists, unphysical
-from particles.pairs import Pairs, aligned, sweep
-from particles.smooth.fluxes import Flux, closed, fluxes, image_fluxes
-from particles.terms import DirectFluxes, Fluxes, finish, summand
+from particles.pairs import sweep
+from particles.terms import DirectFluxes, Fluxes, density_factor
 from particles.threads import Threads
-from particles.walls import image_pressure
+from particles.walls import image_flux, image_pressure
 
 Moving = np.dtype([(name, "f8") for name in ("vx", "vy", "T", "s")])
+Flux = np.dtype([(name, "f8") for name in ("xx", "xy", "qx", "vx", "yx", "yy", "qy", "vy")])  # one cache line
 DirectState = np.dtype([(name, "f8") for name in ("x", "y", "vx", "vy", "T", "P_rho2", "irho", "eta", "k")])
 
 
@@ -30,17 +31,16 @@ class SmoothSums(Listed, ABC):
 
     places : rows of a state that are positions; `velocity` : their rates, for integrators that step them
     apart. symbol : of what stands for the wave number squared in `particles.limits.Symbols`.
-    of_state : names of its rows. columns : of the third sum, before its records finish it.
+    of_state : names of its rows.
     """
     places = 2
     of_state: ClassVar[tuple[str, ...]] = ("x", "y", "vx", "vy", "e")
     symbol: ClassVar[str]
-    columns: ClassVar[int] = 3
 
     def __init__(self, method: Any, n: int, threads: Threads):
         self.method, self.threads, self.n = method, threads, n
         self.around = PairLists(method.weight, method.walls, n, method.box, skin=method.skin, threads=threads)
-        self.slopes, self.pull = np.zeros((self.around.rows, 8)), np.zeros((n, self.columns))
+        self.slopes, self.pull = np.zeros((self.around.rows, 8)), np.zeros((self.around.rows, 5))
         self.less, self.moving = np.empty(0), np.empty(0, Moving)
 
     @classmethod
@@ -73,11 +73,6 @@ class SmoothSums(Listed, ABC):
     def exchange(self, less: np.ndarray) -> tuple[Any, np.ndarray]:
         """Term and records of the third sum, from what `prepare` made, with the pressures `less`."""
 
-    def push(self, state: np.ndarray, less: np.ndarray, pairs: Pairs, out: np.ndarray) -> None:
-        """d(x, y, vx, vy, e)/dt by some pairs alone, written to `out`: the third sum."""
-        self.threads(sweep, self.n, *self.exchange(less), pairs, self.pull)
-        self.threads(_pushed, self.n, state, self.pull, out)
-
     def prepare(self, state: np.ndarray) -> None:
         """What the third sum needs."""
         self.look_at(state)
@@ -85,8 +80,8 @@ class SmoothSums(Listed, ABC):
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
         """d(x, y, vx, vy, e)/dt of a state (5, n), written to `out`."""
         self.prepare(state)
-        self.push(state, self.less, self.around.pairs, out)
-        self.threads(_weighed, self.n, state, self.around.rho, self.slopes, self.method.g,
+        self.threads(sweep, self.n, *self.exchange(self.less), self.around.pairs, self.pull)
+        self.threads(_rates, self.n, state, self.pull, self.around.rho, self.slopes, self.method.g,
                      self.method.static, out)
 
     def velocity(self, state: np.ndarray) -> np.ndarray:
@@ -103,14 +98,13 @@ class SmoothSums(Listed, ABC):
 
     def allocate(self, points: int) -> None:
         """Arrays over all points, whose number changes with the lists."""
-        self.less, self.moving = np.empty(points), aligned(points, Moving)
+        self.less, self.moving = np.empty(points), np.empty(points, Moving)
 
     def gradients(self) -> None:
         """Second sum: self.slopes (rows, 8)."""
         around, kind = self.around, self.method.gradients
         self.threads(_moving, len(around.x), kind, around.vx, around.vy, around.T, around.rho, self.moving)
         self.threads(sweep, around.rows, kind, self.moving, around.pairs, self.slopes)
-        self.threads(_finish, around.rows, kind, self.moving, self.slopes)
 
     @property
     def gradient(self) -> np.ndarray:
@@ -121,23 +115,19 @@ class SmoothSums(Listed, ABC):
 class Nested(SmoothSums):
     """Stress and heat flux from gradients of the second sum, divergence in the third    [KHP95, Sec. II]"""
     symbol = "nested"
-    columns = 16
 
     def allocate(self, points: int) -> None:
         super().allocate(points)
-        self.flux = aligned(points, Flux)
-        self.flux["one"] = 1
-
-    def push(self, state: np.ndarray, less: np.ndarray, pairs: Pairs, out: np.ndarray) -> None:
-        self.threads(sweep, self.n, *self.exchange(less), pairs, self.pull)
-        self.threads(closed, self.n, state, self.flux, self.pull, out)
+        self.flux = np.empty(points, Flux)
 
     def exchange(self, less: np.ndarray) -> tuple[Any, np.ndarray]:
         around = self.around
-        self.threads(fluxes, around.rows, self.method.law, around.rho, around.vx, around.vy, around.T, less,
+        self.threads(_fluxes, around.rows, self.method.law, around.rho, around.vx, around.vy, around.T, less,
                      self.slopes, self.flux)
         for wall, parent, first, last in around.blocks:
-            image_fluxes(first, last, wall, parent, around.rho, around.vx, around.vy, less, self.flux)
+            _image_fluxes(first, last, parent, around.rho, around.vx, around.vy, less, self.flux)
+            if type(wall) in image_flux.kinds:
+                _turn_fluxes(first, last, wall, around.rho, self.flux)
         return Fluxes(), self.flux
 
 
@@ -198,13 +188,35 @@ def _image_pressures(first, last, wall, parent, eos, static, g, y, rho, T, P, le
 def _moving(first, last, kind, vx, vy, T, rho, moving):
     for i in range(first, last):
         a = moving[i]
-        a.vx, a.vy, a.T, a.s = summand(kind, rho[i], vx[i], vy[i], T[i])
+        a.vx, a.vy, a.T, a.s = vx[i], vy[i], T[i], density_factor(kind, rho[i])
 
 
 @jit
-def _finish(first, last, kind, moving, slopes):
+def _fluxes(first, last, law, rho, vx, vy, T, less, slopes, flux):
+    """P/rho^2 and Q/rho^2 with P = (P - static) I - stress, Q = -k grad T."""
     for i in range(first, last):
-        finish(kind, moving[i], slopes[i])
+        xx, yx, Tx, _, xy, yy, Ty, _ = slopes[i]  # xy: dvx/dy
+        sxx, sxy, syy = stress(viscosity(law, rho[i], T[i]), 0.0, xx, yx, xy, yy)
+        k, f, a = conductivity(law, rho[i], T[i]), 1/rho[i]**2, flux[i]
+        a.vx, a.vy = vx[i], vy[i]
+        a.xx, a.xy, a.yx, a.yy = (less[i] - sxx)*f, -sxy*f, -sxy*f, (less[i] - syy)*f
+        a.qx, a.qy = -k*Tx*f, -k*Ty*f
+
+
+@jit
+def _image_fluxes(first, last, parent, rho, vx, vy, less, flux):
+    """Stress and heat flux copied from the parents, pressure by the wall's rule    [KHP95, Sec. IV]"""
+    for i in range(first, last):
+        p = parent[i - first]
+        a, b, f = flux[i], flux[p], (less[i] - less[p])/rho[i]**2
+        a.vx, a.vy = vx[i], vy[i]
+        a.xx, a.xy, a.yx, a.yy, a.qx, a.qy = b.xx + f, b.xy, b.yx, b.yy + f, b.qx, b.qy
+
+
+@jit
+def _turn_fluxes(first, last, wall, rho, flux):
+    for i in range(first, last):
+        image_flux(wall, flux[i], rho[i])
 
 
 @jit
@@ -223,17 +235,11 @@ def sound(first, last, eos, rho, T, records):
 
 
 @jit
-def _pushed(first, last, state, pull, out):
+def _rates(first, last, state, pull, rho, slopes, g, static, out):
+    """Rates of the particles, with support and work of what pressure the pair sums leave out."""
     for i in range(first, last):
         out[0, i], out[1, i] = state[2, i], state[3, i]
-        out[2, i], out[3, i], out[4, i] = pull[i, 0], pull[i, 1], pull[i, 2]
-
-
-@jit
-def _weighed(first, last, state, rho, slopes, g, static, out):
-    """Add gravity, and support and work of what pressure the pair sums leave out."""
-    for i in range(first, last):
-        out[3, i] -= g
+        out[2, i], out[3, i], out[4, i] = pull[i, 0], pull[i, 1] - g, pull[i, 2] + pull[i, 4]
     if static.fraction != 0:
         for i in range(first, last):
             out[3, i] += g*static.fraction*static.rho0/rho[i]

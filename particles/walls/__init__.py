@@ -29,11 +29,8 @@ def image_pressure(wall, own, copied):
 
 
 @generic
-def image_flux(wall, xy, qx, qy, rho):
-    """Shear stress and heat flux over rho^2 of an image from those that it copies; both stay by default."""
-
-
-image_flux.of(tuple)(lambda wall, xy, qx, qy, rho: (xy, qx, qy))
+def image_flux(wall, a, rho):
+    """Turn the stress and heat flux over rho^2 that the image `a` has copied. Where both stay: no formula."""
 
 
 @generic

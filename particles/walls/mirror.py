@@ -136,8 +136,13 @@ def _(wall, x, y, vx, vy, T):
 
 
 @image_flux.of(OneSide)
-def _(wall, xy, qx, qy, rho):
-    mirror, inwards = wall.mirror, 2*wall.mirror.inner*wall.q/rho**2
+def _(wall, a, rho):
+    mirror = wall.mirror
+    if wall.slip:
+        a.xy, a.yx = -a.xy, -a.yx
     if mirror.T != mirror.T:
-        qx, qy = (qx, inwards - qy) if mirror.axis == 1 else (inwards - qx, qy)
-    return (-xy if wall.slip else xy), qx, qy
+        inwards = 2*mirror.inner*wall.q/rho**2
+        if mirror.axis == 1:
+            a.qy = inwards - a.qy
+        else:
+            a.qx = inwards - a.qx

@@ -16,6 +16,7 @@ import numpy as np
 from continuum.fluid import ConstEta
 from particles.integral.edge_makers import delaunay, exact
 from particles.integral.points import Points, of_positions, wrapped
+from particles.pairs import sweep
 from particles.run import Plan, run
 from particles.weights import WendlandC2
 from studies.build import spam
@@ -40,14 +41,14 @@ class Operators(NamedTuple):
 def of_particles(points: Points, weight: Any, transport: type) -> Operators:
     """Of smooth particles of unit mass, kappa = 1, no viscosity."""
     method = spam.fluid(weight, tuple(points.box), law=ConstEta(0.0, 1.0), transport=transport)
-    sums, state, _ = method.look(spam.at_rest(points.x, 1.0))
+    sums, *_ = method.look(spam.at_rest(points.x, 1.0))
     around, n = sums.around, sums.n
-    places, out = np.array([around.x, around.y]), np.empty_like(state)
+    places = np.array([around.x, around.y])
 
     def respond(P: Any, u: Any = 0.0, v: Any = 0.0, T: Any = 1.0) -> np.ndarray:
         around.vx[:], around.vy[:], around.T[:] = u, v, T
-        sums.push(state, P + 0*around.x, around.pairs, out)
-        return around.rho[:n]*out[2:]
+        sums.threads(sweep, n, *sums.exchange(P + 0*around.x), around.pairs, sums.pull)
+        return around.rho[:n]*sums.pull[:n, :3].T
 
     def gradient(f: Field) -> np.ndarray:
         return -np.array([respond(1.0, f(places))[2], respond(1.0, 0.0, f(places))[2]])
