@@ -253,6 +253,12 @@ def costs() -> Iterator[str]:
             for name in ("grid", "py-pde", "fixed-lattice-h1.2", "moving-delaunay", "moving")]
     yield (f"| {rest[0]} s (KHP95's cells), {rest[1]} s (staggered, py-pde) | {rest[2]} s | {rest[3]} s "
            f"| {rest[4]} s |")
+    spam, lammps = (one("spam_speed", "ns_per_particle_evaluation", what=what, particles=20_000)
+                    (Folder("bench")).value for what in ("spam", "lammps"))
+    yield (f"takes {spam:.0f} ns an evaluation with all that belongs to it, LAMMPS' three sums "
+           f"{lammps:.0f} ns, a staying point {evaluation('fixed points, h = 2 a'):.0f} ns at h = 2 a")
+    yield (f"takes {evaluation('moving points, a step'):.0f} ns over closed faces, "
+           f"{evaluation('moving delaunay, a step'):.0f} ns with its triangulation")
     cells = seconds("grid", "sound", "velocity")
     yield (f"| {said(cells, 1)} s | {of('own-speed-fixed-points-sound')} grids | "
            + " | ".join(f"{said(seconds(name, 'sound', 'velocity')/cells, 1)} grids"
