@@ -18,8 +18,11 @@ from continuum.fluid import (
     sound_speed,
     viscosity,
 )
+from continuum.scene import RayleighBenard
 from particles.limits import by_trial, largest_step, step_limit
 from particles.observe import fields_at, particle_kinetic
+from particles.plan import Plan
+from particles.run import run
 from particles.smooth.riemann import LowDissipationSums
 from particles.smooth.shifting import DeltaPlus
 from particles.smooth.spam import LessStatic, Spam
@@ -27,6 +30,7 @@ from particles.smooth.transport import TransportVelocity
 from particles.walls.fixed import fixed_plates
 from particles.walls.mirror import Copied, Odd, plates
 from particles.weights import Lucy, WendlandC2
+from studies.build import ready
 
 WALLS = {"closed": closed(Odd(), Copied()), "periodic": everywhere(BOX),
          "layer": PERIODIC + plates(BOX[1], HOT, COLD, Odd(), Copied())}
@@ -130,6 +134,14 @@ def test_mass_momentum_and_energy_are_exchanged_only(kind):
     rows = (m*ax + state[2]*gain, m*ay + state[3]*gain, m*power + (state[4] + v2)*gain, *more[1:])
     for rate in rows:
         assert abs(rate.sum()) < 1e-14*30*abs(rate).sum() and abs(rate).max() > 1e-3
+
+
+@pytest.mark.parametrize("name", ["spam-delta-plus", "spam-transport-velocity"])
+def test_rows_do_not_depend_on_the_number_of_threads(name):
+    method, start, dt = ready(RayleighBenard(ra=1e4, L=10.0), name)
+    start[2:4] += np.random.default_rng(1).normal(0, 0.05, start[2:4].shape)
+    one, two = (run(method, start, Plan(dt=dt, steps=20, threads=threads)).state for threads in (1, 2))
+    assert start.shape[1] >= 128 and np.array_equal(one, two)       # fewer particles are not shared
 
 
 @pytest.mark.parametrize(("kind", "jitter", "broken"), [

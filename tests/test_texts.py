@@ -147,7 +147,7 @@ def as_used_today() -> Iterator[str]:
            f"{percent('own-today-corrected-limit')} % in the limit")
     yield f"of order {of('own-today-corrected-order')}"
     others = {name: all_of(of_rows(name, rows)) for name, rows in (
-        ("CRKSPH", (25, 35, 50, 70)), ("MFM", (25, 35)), ("MFM-adiabatic", (25, 35)), ("riemann", (35,)),
+        ("CRKSPH", (25, 35, 50, 70)), ("MFM", (25, 35)), ("MFM-adiabatic", (25, 35, 50)), ("riemann", (35,)),
         ("delta-plus", (35,)), ("transport-velocity-whole", (25,)))}
     yield (f"CRKSPH is {others['CRKSPH']} % off in Kp with 25, 35, 50, 70 rows, "
            f"{percent('own-today-crksph-limit')} % in the limit. MFM is {others['MFM']} % off")
