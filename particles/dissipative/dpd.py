@@ -123,10 +123,9 @@ class Forces(Sums):
             self.images.relist(now.anchor)
 
     def try_out(self, now: Any) -> None:
-        anchor, out, fresh = now.anchor, np.empty_like(now.state), now.anchor is None
-        if fresh:
-            self.rates(now.state.copy(), out)
-            self.images.anchor, now.anchor = None, anchor
+        if now.anchor is None:
+            self.rates(now.state.copy(), np.empty_like(now.state))
+            self.images.anchor = now.anchor = None      # lists are made anew before the first step
 
     def make_ready(self, now: Any, dt: float) -> None:
         """Lists for the step; before the first its force. ValueError: the step is above the limit."""
@@ -139,8 +138,7 @@ class Forces(Sums):
             order = self.images.order(now.state[:d])
             now.state[:], now.ids[:], self.images.anchor = now.state[:, order], now.ids[order], None
         if now.step == 0:
-            self._sum(Force(), self.method.law(dt), self.method.noise, 0, now.state[:d], now.state[d:2*d],
-                      now.state[2*d:3*d])
+            self._force(self.method.law(dt), self.method.noise, 0, *now.state[:3*d].reshape(3, d, -1))
 
     def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
         """Every finite state is valid."""
@@ -161,12 +159,12 @@ class Forces(Sums):
 
     def forces(self, x: np.ndarray, v: np.ndarray, out: np.ndarray) -> None:
         """Forces (d, n) at x, v with the noise of this step."""
-        self._sum(Force(), self.method.law(self.dt), self.method.noise, self.now.step + 1, x, v, out)
+        self._force(self.method.law(self.dt), self.method.noise, self.now.step + 1, x, v, out)
 
     def soft(self, x: np.ndarray, out: np.ndarray) -> None:
         """Repulsion only."""
         law = self.method.law(self.dt)._replace(gamma=0.0)
-        self._sum(Force(), law, Silent(0), 0, x, x, out)
+        self._force(law, Silent(0), 0, x, x, out)
 
     def rub(self, x: np.ndarray, v: np.ndarray, dt: float) -> None:
         """Friction and noise act on v for dt."""
@@ -174,21 +172,23 @@ class Forces(Sums):
         self._records(x, v)
         pairs3d.rub_pairs(self.n, method.law(dt), method.noise, self.now.step + 1, dt, self.particle,
                           self.images.lists, self.taken)
-        pairs3d.velocities(self.particle, v)
+        for component, name in zip(v, ("vx", "vy", "vz")):
+            component[:] = self.particle[name][:self.n]
 
     def over_pairs(self, term: Any, state: np.ndarray, columns: int) -> np.ndarray:
         """Sums (n, columns) of a term over the pairs of a state, without noise."""
         d, out = self.places, np.empty((self.n, columns))
-        self._records(state[:d], state[d:2*d])
-        self.threads(pairs3d.sum_pairs, self.n, term, self.method.law(self.dt), Silent(0), 0, self.particle,
-                     self.images.lists, self.taken, out)
+        self._sum(term, self.method.law(self.dt), Silent(0), 0, state[:d], state[d:2*d], out)
         return out
+
+    def _force(self, law, noise, step, x, v, out):
+        self._sum(Force(), law, noise, step, x, v, self.total)
+        out[:] = self.total[:, :self.places].T
 
     def _sum(self, term, law, noise, step, x, v, out):
         self._records(x, v)
         self.threads(pairs3d.sum_pairs, self.n, term, law, noise, step, self.particle, self.images.lists,
-                     self.taken, self.total)
-        self.threads(pairs3d.turn, self.n, self.total, out)
+                     self.taken, out)
 
     def _records(self, x, v):
         """Particles and ghosts where they are; new lists if these may miss a pair."""

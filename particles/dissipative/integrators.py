@@ -41,8 +41,12 @@ class GrootWarren:
         d, guess, new = sums.places, self._guess, self._new
         x, v, f = y[:d], y[d:2*d], y[2*d:]
         self._threads(_drift, x.size, x.ravel(), v.ravel(), f.ravel(), dt, self.lam, guess.ravel())
-        sums.forces(x, guess, new)
+        self.forces(sums, x, guess, new)
         self._threads(_kick, x.size, v.ravel(), f.ravel(), new.ravel(), dt)
+
+    def forces(self, sums: Any, x: np.ndarray, v: np.ndarray, out: np.ndarray) -> None:
+        """Those of the end of the step."""
+        sums.forces(x, v, out)
 
 
 class GrootWarren65(GrootWarren):
@@ -65,12 +69,12 @@ class Shardlow(GrootWarren):
     lam = 0.0
 
     def step(self, sums: Any, y: np.ndarray, dt: float) -> None:
-        d, new = sums.places, self._new
-        x, v, f = y[:d], y[d:2*d], y[2*d:]
-        sums.rub(x, v, dt)
-        self._threads(_drift, x.size, x.ravel(), v.ravel(), f.ravel(), dt, self.lam, self._guess.ravel())
-        sums.soft(x, new)
-        self._threads(_kick, x.size, v.ravel(), f.ravel(), new.ravel(), dt)
+        d = sums.places
+        sums.rub(y[:d], y[d:2*d], dt)
+        super().step(sums, y, dt)
+
+    def forces(self, sums: Any, x: np.ndarray, v: np.ndarray, out: np.ndarray) -> None:
+        sums.soft(x, out)
 
 
 class KickDriftFrictionDriftKick(GrootWarren):

@@ -147,14 +147,6 @@ def record(first, last, x, v, ids, images, particle):
 
 
 @jit
-def turn(first, last, total, out):
-    """out (d, n) from sums (n, 3)."""
-    for i in range(first, last):
-        for axis in range(out.shape[0]):
-            out[axis, i] = total[i, axis]
-
-
-@jit
 def rub_pairs(n, law, noise, step, dt, particle, lists, taken):
     """Friction and noise pair by pair, implicit midpoint: keeps kT at any step    [Shardlow 2003]
 
@@ -179,12 +171,3 @@ def rub_pairs(n, law, noise, step, dt, particle, lists, taken):
                 q = (law.sigma*dt*w*pairs.zeta[k] - K*u)/(1 + K)
                 a.vx, a.vy, a.vz = a.vx + q*ex, a.vy + q*ey, a.vz + q*ez
                 b.vx, b.vy, b.vz = b.vx - q*ex, b.vy - q*ey, b.vz - q*ez
-
-
-@jit
-def velocities(particle, v):
-    """v (d, n) from records."""
-    for i in range(v.shape[1]):
-        v[0, i], v[1, i] = particle[i].vx, particle[i].vy
-        if v.shape[0] == 3:
-            v[2, i] = particle[i].vz

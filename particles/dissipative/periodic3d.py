@@ -157,16 +157,6 @@ def _ghosts(x, sides, d, margin, parent, shift):
     return count
 
 
-@jit
-def place(first, last, x, images, out):
-    """out[k] = (x, y, z) of points first..last."""
-    for k in range(first, last):
-        i = images.parent[k]
-        out[k, 0] = x[0, i] + images.shift[k, 0]
-        out[k, 1] = x[1, i] + images.shift[k, 1]
-        out[k, 2] = x[2, i] + images.shift[k, 2] if len(x) == 3 else 0.0
-
-
 class WithGhosts(NamedTuple):
     """Particles, then ghosts: of which particle, where from there (points, 3)."""
     parent: np.ndarray
@@ -217,6 +207,6 @@ class Images:
             parent, shift = np.empty(room, np.int64), np.empty((room, 3))
             count, room = _ghosts(x, self.box, len(x), margin, parent, shift), 2*room
         self.points = WithGhosts(parent[:count], shift[:count])
-        out = np.empty((count, 3))
-        place(0, count, x, self.points, out)
-        return out
+        places = shift[:count].copy()
+        places[:, :len(x)] += x[:, parent[:count]].T
+        return places
