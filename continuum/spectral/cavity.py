@@ -7,15 +7,13 @@ the products of two polynomials one half is left out.
     observed(steady(CavityLaws(1e6, 0.71), 48))["nu"]
 """
 from dataclasses import dataclass
-from functools import partial
 
 import numpy as np
 from numpy.polynomial import legendre
 
-from continuum.spectral.laws import BoussinesqLaws, stacked
+from continuum.spectral.laws import BoussinesqLaws
 from continuum.spectral.modes import RHO, VX, VY, T, along_y
-from continuum.spectral.newton import Galerkin, SpectralState, step
-from continuum.steady import newton
+from continuum.spectral.newton import Galerkin, SpectralState, relaxed
 
 
 @dataclass(frozen=True)
@@ -25,13 +23,7 @@ class CavityLaws(BoussinesqLaws):
 
     def terms(self, at: np.ndarray, x: np.ndarray) -> np.ndarray:
         """(law, term, ...), as of `BoussinesqLaws`, at places along x."""
-        (u, u_x, u_y), (v, v_x, v_y), (p, _, _), (warm, T_x, T_y) = at
-        nu, kappa, T = float((self.pr/self.ra)**0.5), self.units[2], warm - x
-        return stacked([
-            [0, u*u + p - nu*u_x, u*v - nu*u_y, u],
-            [T, u*v - nu*v_x, v*v + p - nu*v_y, v],
-            [0, u, v, 0],
-            [0, u*T - kappa*(T_x - 1), v*T - kappa*T_y, T]])
+        return self.of_T(at, at[3, 0] - x, x, (1, 0))
 
 
 class Cavity(Galerkin):
@@ -55,12 +47,7 @@ def steady(laws: CavityLaws, n: int, start: SpectralState | None = None) -> Spec
 
     Raises ValueError: n. NewtonFailed: no convergence; start from a smaller Ra.
     """
-    equations, every = Cavity(laws, n), np.zeros((4, n, n))
-    if start:
-        both = min(n, start.equations.n)
-        every[:, :both, :both] = start.equations.amplitudes(start.q)[:, :both, :both]
-    return SpectralState(equations, *newton(every[equations.kept], partial(step, equations),
-                                            f"{laws}, {n} functions"))
+    return relaxed(Cavity(laws, n), start.on(n) if start else np.zeros((4, n, n)))
 
 
 def observed(state: SpectralState) -> dict[str, float]:

@@ -55,13 +55,17 @@ class BoussinesqLaws:
 
     def terms(self, at: np.ndarray, y: np.ndarray) -> np.ndarray:
         """(law, term, ...): source, flux_x, flux_y, stored."""
+        return self.of_T(at, at[3, 0], y, (0, 1))
+
+    def of_T(self, at: np.ndarray, lift: np.ndarray, s: np.ndarray, falls: tuple[int, int]) -> np.ndarray:
+        """The same where T = warm - s, which falls by (1, 0) or (0, 1), and `lift` pushes upwards."""
         (u, u_x, u_y), (v, v_x, v_y), (p, _, _), (warm, T_x, T_y) = at
-        nu, kappa, T = float((self.pr/self.ra)**0.5), self.units[2], warm - y
+        nu, kappa, T = float((self.pr/self.ra)**0.5), self.units[2], warm - s
         return stacked([
             [0, u*u + p - nu*u_x, u*v - nu*u_y, u],
-            [warm, u*v - nu*v_x, v*v + p - nu*v_y, v],
+            [lift, u*v - nu*v_x, v*v + p - nu*v_y, v],
             [0, u, v, 0],
-            [0, u*T - kappa*T_x, v*T - kappa*(T_y - 1), T]])
+            [0, u*T - kappa*(T_x - falls[0]), v*T - kappa*(T_y - falls[1]), T]])
 
 
 def stacked(laws: list) -> np.ndarray:

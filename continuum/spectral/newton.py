@@ -94,6 +94,12 @@ class SpectralState(NamedTuple):
         """Fields and their slopes at the points, (4, 3, points in x, in y)."""
         return self.equations.at(self.q)
 
+    def on(self, n: int) -> np.ndarray:
+        """Amplitudes (4, n, n), of more functions or fewer."""
+        every, both = np.zeros((4, n, n)), min(n, self.equations.n)
+        every[:, :both, :both] = self.equations.amplitudes(self.q)[:, :both, :both]
+        return every
+
     @property
     def K(self) -> float:
         """Kinetic energy per mass; the mean density is 1."""
@@ -114,15 +120,17 @@ def steady(laws: Any, n: int, start: SpectralState | None = None) -> SpectralSta
     Implicit steps lengthen as rates fall and become Newton's: the state need not be stable. At rest below
     onset. Raises ValueError: n. NewtonFailed: no convergence.
     """
-    equations, every = Galerkin(laws, n), np.zeros((4, n, n))
-    if start is None:
+    every = start.on(n) if start else np.zeros((4, n, n))
+    if not start:
         pairs = max(1, round(laws.width/2))
         every[[VY, T], pairs, 0] = RISING*np.array(laws.units[:2])
-    else:
-        both = min(n, start.equations.n)
-        every[:, :both, :both] = start.equations.amplitudes(start.q)[:, :both, :both]
+    return relaxed(Galerkin(laws, n), every)
+
+
+def relaxed(equations: Galerkin, every: np.ndarray) -> SpectralState:
+    """The steady state that amplitudes (4, n, n) lead to."""
     return SpectralState(equations, *newton(every[equations.kept], partial(step, equations),
-                                            f"{laws}, {n} functions"))
+                                            f"{equations.laws}, {equations.n} functions"))
 
 
 def step(equations: Galerkin, q: np.ndarray) -> np.ndarray:
