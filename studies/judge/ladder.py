@@ -130,12 +130,15 @@ def climb(method: Any, rows: Sequence[int], minutes: float) -> list[Take]:
     """A method on its way up, from few rows to many; what takes longer than the minutes is left out."""
     end, takes = monotonic() + 60*minutes, list[Take]()
     places = [(rung, count) for rung in RUNGS for count in (rows if rung.every else rows[:1])]
+    works = [work(*place) for place in places]
     for number, place in enumerate(places, 1):
-        takes.append(taken(method, *place, end - monotonic(), takes))
-        done, left = (sum(work(*each) for each in part) for part in (places[:number], places[number:]))
-        rest, take = sum(take.seconds for take in takes)*left/done, takes[-1]
+        take = taken(method, *place, end - monotonic(), takes)
+        takes.append(take)
+        # the first run compiles most, others less: the fastest shows what a run alone takes
+        paces = [one.seconds/size for one, size in zip(takes, works) if one.numbers]
+        left = f"; about {min(paces)*sum(works[number:]):.0f} s left"*(len(paces) > 1)
         print(f"[{number}/{len(places)}] {take.rung}, {take.rows} rows: "
-              f"{take.fault or f'{take.seconds:.1f} s'}; about {rest:.0f} s left", file=sys.stderr)
+              f"{take.fault or f'{take.seconds:.1f} s'}{left}", file=sys.stderr)
     return takes
 
 
