@@ -98,6 +98,8 @@ def valid(eos, rho, e):
     """True where the equation of state may be used."""
 
 
+#: what an equation of state needs
+OF_EOS = pressure, temperature, energy, pressure_slopes, thermal_pressure, valid
 pressure.of(IdealGas)(lambda eos, rho, e: rho*e/eos.cv)
 temperature.of(IdealGas)(lambda eos, rho, e: e/eos.cv)
 energy.of(IdealGas)(lambda eos, rho, T: eos.cv*T)
