@@ -144,7 +144,9 @@ def climb(method: Any, rows: Sequence[int], minutes: float) -> list[Take]:
 
 def taken(method: Any, rung: Rung, rows: int, left: float, before: list[Take]) -> Take:
     """One; not begun where the seconds that are left would not do."""
-    needed = foreseen(rung, rows, before)
+    # as the same rung with fewer rows foretells; nothing is known of the first
+    same = [take for take in before if take.rung == rung.name and take.numbers]
+    needed = same[-1].seconds*work(rung, rows)/work(rung, same[-1].rows) if same else 0.0
     if needed > left:
         return Take(rung.name, rows, {}, 0.0,
                     f"{LEFT_OUT} it takes some {needed/60:.0f} minutes; --minutes gives more")
@@ -174,12 +176,6 @@ def work(rung: Rung, rows: int) -> float:
     scene = rung.scene(rows)
     usual, unit = duration(scene)
     return float(scene.width*scene.L*usual*unit)
-
-
-def foreseen(rung: Rung, rows: int, before: list[Take]) -> float:
-    """Seconds, from the same rung with fewer rows; nothing is known of the first."""
-    same = [take for take in before if take.rung == rung.name and take.numbers]
-    return same[-1].seconds*work(rung, rows)/work(rung, same[-1].rows) if same else 0.0
 
 
 def judged(rung: Rung, takes: Sequence[Take]) -> Verdict:
