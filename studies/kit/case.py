@@ -26,7 +26,7 @@ class Outcome:
 @dataclass_transform(frozen_default=True, kw_only_default=True)
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class Case:
-    """Base of all cases; a subclass becomes a frozen keyword-only dataclass, its fields are the parameters.
+    """Base of all cases; a subclass is a frozen keyword-only dataclass whose fields are the parameters.
 
     Fields may be numbers, strings, tuples, dicts, enums, NamedTuples, dataclasses, and functions or classes
     of a module. The result must depend on nothing else than these and the code.
@@ -34,11 +34,11 @@ class Case:
 
     #: True for timings: the case then has the machine to itself
     alone: ClassVar[bool] = False
-    table: ClassVar[str] = ""
-    same: ClassVar[str] = ""
+    table: ClassVar[str] = ""   # of all rows
+    same: ClassVar[str] = ""    # fields and properties that are columns of each
 
     def __init_subclass__(cls, table: str = "", same: str = "") -> None:
-        """A class that names the table of its rows, or fields that are columns there, needs no decorator."""
+        """``class Wave(Case, table="waves", same="k seed")`` needs no decorator and no columns k, seed."""
         if table or same:
             cls.table, cls.same = table or cls.table, same or cls.same
             dataclasses.dataclass(frozen=True, kw_only=True)(cls)
