@@ -136,7 +136,7 @@ def climb(method: Any, rows: Sequence[int], minutes: float) -> list[Take]:
         takes.append(take)
         # the first run compiles most, others less: the fastest shows what a run alone takes
         paces = [one.seconds/size for one, size in zip(takes, works) if one.numbers]
-        left = f"; about {min(paces)*sum(works[number:]):.0f} s left"*(len(paces) > 1)
+        left = f"; about {min(paces)*sum(works[number:]):.0f} s left" if len(paces) > 1 else ""
         print(f"[{number}/{len(places)}] {take.rung}, {take.rows} rows: "
               f"{take.fault or f'{take.seconds:.1f} s'}{left}", file=sys.stderr)
     return takes
