@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from scipy.integrate import odeint
 
-from continuum.fluid import ConstEta, IdealGas, check_state, energy, pressure
+from continuum.fluid import ConstEta, IdealGas, check_eos, check_state, energy, pressure
 from continuum.scene import positive
 from continuum.sides import HeatPath, Periodic, Plate, Sides, Sliding, Torus, adiabatic, check_sides, warm
 
@@ -65,6 +65,7 @@ class Domain:
         if not isfinite(self.g) or (self.g and isinstance(self.sides, Torus)):
             raise ValueError(f"g must be finite, and 0 where nothing stands below, got {self.g}: give the "
                              "box a bottom and a top")
+        check_eos(self.eos)
         for T in (self.T_mean, *self.temperatures):
             check_state(self.eos, 1.0, energy(self.eos, 1.0, T))
 

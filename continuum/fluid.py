@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.jit import formula, generic
+from continuum.jit import check_formulas, formula, generic
 
 #: of laws; those of another name may have either sign
 NOT_NEGATIVE = ("b", "eta", "k", "nu", "kappa")
@@ -175,6 +175,12 @@ def expansivity(eos, rho: float, T: float) -> float:
     e_rho = (energy(eos, rho + step, T) - energy(eos, rho - step, T))/(2*step)
     by_rho, by_e = pressure_slopes(eos, rho, energy(eos, rho, T))
     return thermal_pressure(eos, rho, T)/(rho*(by_rho + by_e*e_rho))
+
+
+def check_eos(eos: Any) -> None:
+    """Refuse an equation of state that lacks formulas: TypeError. A class itself is refused by `energy`."""
+    if not isinstance(eos, type):
+        check_formulas(eos, pressure, temperature, energy, pressure_slopes, thermal_pressure, valid)
 
 
 def check_state(eos, rho: Any, e: Any) -> None:

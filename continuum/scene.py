@@ -69,6 +69,7 @@ class RayleighBenard:
             laws = " or ".join(law.__name__ for law in fluid.viscosity.kinds)
             raise TypeError(f"transport must be a class of transport laws, got {self.transport!r}: give "
                             f"{laws}, without quotes or numbers, which follow from ra and pr")
+        fluid.check_eos(self.eos)
         for T in (self.T_hot, self.T_cold):
             fluid.check_state(self.eos, 1.0, fluid.energy(self.eos, 1.0, T))
         try:

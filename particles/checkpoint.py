@@ -92,7 +92,7 @@ def save(path: Path, method: Any, plan: Plan, start: np.ndarray, now: Run) -> No
     except OSError as error:
         beside.unlink(missing_ok=True)
         why = "the disk is full" if error.errno == ENOSPC or "No space" in str(error) else str(error)
-        raise OSError(f"cannot write checkpoint {path.name} at step {now.step}: {why}; the former one is "
+        raise OSError(f"cannot write checkpoint {path} at step {now.step}: {why}; the former one is "
                       "kept") from error
 
 
@@ -144,9 +144,9 @@ def load(path: Path | None, method: Any, plan: Plan, start: np.ndarray) -> Run |
             raise OSError(f"its state {arrays['state'].shape} or numbers of particles do not fit a start "
                           f"{start.shape}")
     except (OSError, KeyError) as error:
-        raise ValueError(f"checkpoint {path.name} cannot be read ({error}): delete it") from error
+        raise ValueError(f"checkpoint {path} cannot be read ({error}): delete it") from error
     if numbers["step"] > plan.steps:
-        raise ValueError(f"checkpoint {path.name} is at step {numbers['step']}, beyond steps = {plan.steps}: "
+        raise ValueError(f"checkpoint {path} is at step {numbers['step']}, beyond steps = {plan.steps}: "
                          "take more steps, or delete it to start anew")
     series = {name: values.tolist() for name, values in groups.get("series", {}).items()}
     return Run(**arrays, **numbers, times=times, series=series, sums=groups.get("sums", {}))
@@ -157,5 +157,5 @@ def _same(path: Path, stored: dict[str, str], wanted: dict[str, str]) -> None:
         if (had := stored[what]) != value:
             same = next((k for k, (a, b) in enumerate(zip(had, value, strict=False)) if a != b), 0)
             cut = slice(max(0, same - 20), same + 40)
-            raise ValueError(f"checkpoint {path.name} is of other {what}: it has ...{had[cut]}..., this run "
+            raise ValueError(f"checkpoint {path} is of other {what}: it has ...{had[cut]}..., this run "
                              f"...{value[cut]}...; delete it to start anew, or run what it was made with")

@@ -54,8 +54,8 @@ def test_a_stream_produces_nothing_more_but_where_derivatives_do_not_commute(way
 
 
 def row(way, make, points, cells, state):
-    case = Entropy(way=way, make=make, disorder=DISORDERS[points], counts=(cells, cells), h=2.5, state=state,
-                   seed=7)
+    case = Entropy(transport=way, maker=make, points=DISORDERS[points], counts=(cells, cells), h=2.5,
+                   state=state, seed=7)
     return rows_of(case, "entropy")[0]
 
 

@@ -140,8 +140,8 @@ def other_box():
 @pytest.mark.parametrize(("call", "words"), [
     (lambda: solve("rayleigh", "grid"), "no scene is called 'rayleigh'; near to it are rayleigh-benard"),
     (lambda: solve(RB, "fixed-latice"), "no method is called 'fixed-latice'; near to it are fixed-lattice"),
-    (lambda: solve(RB, "xyz"), "near to it are none of [0-9]+ such as grid, spam, .*; make words explains"),
-    (lambda: solve(RB, "mac"), r"mac is used by a single study only, incompress.*such as grid, spam"),
+    (lambda: solve(RB, "xyz"), "no name of [0-9]+ is near to it; .* are grid, spam, .*; make words"),
+    (lambda: solve(RB, "mac"), r"mac is used by a single study only, incompress.*usual ones are grid, spam"),
     (lambda: solve(RB, 3), "a method is a name, a variant, .*, got 3: make words lists"),
     (lambda: solve(3, "grid"), "a scene is a name or an object such as Domain.*, got 3: make words lists"),
     (lambda: solve(RB, "grid", rows=0), "rows must be a whole number of 4 or more, got 0"),

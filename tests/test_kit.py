@@ -60,6 +60,20 @@ class Square(Case):
         return Outcome({"squares": [{"x": self.x, "note": "", "y": np.float64(self.x**2)}]})
 
 
+class Root(Case, table="roots", same="x of"):
+    x: float
+    of: object = math.sqrt
+
+    def measure(self, report):
+        yield {"y": self.of(self.x)}
+
+
+def test_a_case_that_names_its_table_and_columns_needs_to_measure_only():
+    case = Root(x=4.0)
+    assert case.run(None, None).rows == {"roots": [{"x": 4.0, "of": "sqrt", "y": 2.0}]}
+    assert case.key != replace(case, x=9.0).key and case.label == "Root 4 sqrt"
+
+
 class Bench:
     """A sweep in a folder of its own, in this process, that remembers what ran."""
 

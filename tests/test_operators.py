@@ -30,9 +30,16 @@ from studies.operators.equations import (
     rates,
     transported,
 )
-from studies.operators.makers import hexagonal, of_edges, of_particles
+from studies.operators.makers import (
+    NU,
+    hexagonal,
+    layer,
+    of_edges,
+    of_particles,
+    through_faces,
+    through_pairs,
+)
 from studies.operators.scheme import LayerGrowth, euler_limit, sound, viscosities
-from studies.operators.wall_heat import NU, layer, through_faces, through_pairs
 from studies.operators.weights import (
     around,
     gradient_symbol,

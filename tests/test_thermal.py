@@ -16,9 +16,7 @@ from particles.run import Plan, run
 from particles.threads import Threads
 from particles.weights import Lucy
 from studies.noise import covariance
-from studies.noise.below_onset import layer_noise
-from studies.noise.covariance import steady, waves
-from studies.noise.partners import noise, transport
+from studies.noise.covariance import layer_noise, noise, steady, transport, waves
 
 
 def gas(share: float = 0.1, k: float = 1e-3, **more) -> Thermal:

@@ -9,13 +9,12 @@ from scenes import rows_of
 from continuum.exact.shear import couette, poiseuille
 from continuum.exact.waves import QUANTITIES, LinearGas, continuum, quantities
 from continuum.fluid import ConstNu
-from particles.integral.dih import NestedFluxes, Pairwise
 from particles.integral.edge_makers import delaunay, renormalised
 from particles.weights import Lucy
 from studies.build.setting import DISORDERS
 from studies.build.symbols import lattice_waves
 from studies.operators.cases import DRIVES
-from studies.operators.transport import BETWEEN, SPEED, Decay, between_rows
+from studies.operators.transport import BETWEEN, SPEED, WAYS, Decay, between_rows
 
 GAS = LinearGas(0.3, 0.2, 0.4)
 COUETTE, _ = DRIVES
@@ -26,7 +25,7 @@ TOLD = ("viscosity", "bulk viscosity", "conductivity", "sound speed")
 
 def decay(transport, make=renormalised, disorder="lattice", counts=(12, 8)):
     """Rows by quantity."""
-    case = Decay(transport=transport, make=make, disorder=DISORDERS[disorder], counts=counts, h=2.0, zeta=0.2)
+    case = Decay(transport=transport, maker=make, points=DISORDERS[disorder], counts=counts, h=2.0, zeta=0.2)
     return {row["quantity"]: row for row in rows_of(case, "waves")}
 
 
@@ -37,10 +36,10 @@ def test_continuum_of_long_waves_has_the_coefficients_put_in():
     np.testing.assert_allclose([values[name] for name in QUANTITIES], expected, rtol=1e-5)
 
 
-@pytest.mark.parametrize("transport", [NestedFluxes(), Pairwise()])
+@pytest.mark.parametrize("transport", WAYS)
 def test_waves_measured_in_time_are_those_of_the_symbol(transport):
     k = 2*np.pi/12
-    waves = lattice_waves(GAS, Lucy.of(h=2.0), np.array([k, 0.0]), nested=transport == NestedFluxes())
+    waves = lattice_waves(GAS, Lucy.of(h=2.0), np.array([k, 0.0]), nested=transport == "nested")
     symbol = quantities(waves, k)
     for name, row in decay(transport).items():
         steps = 1e-5*max(row["continuum"], 0.1)     # they leave 4e-6
@@ -50,7 +49,7 @@ def test_waves_measured_in_time_are_those_of_the_symbol(transport):
 
 def test_coefficients_on_irregular_points_are_near_the_continuum():
     """Second order: (2 pi/16)^2 times some tenths."""
-    for row in decay(NestedFluxes(), delaunay, "jittered-0.1", (16, 8)).values():
+    for row in decay("nested", delaunay, "jittered-0.1", (16, 8)).values():
         assert abs(row["measured"] - row["continuum"]) < 0.05*row["continuum"]
         assert 0 < row["measured_err"] < 0.02*row["continuum"]
 

@@ -121,12 +121,15 @@ def of_name(kind: str, name: str, table: Mapping[str, Any]) -> Any:
     why = f"no {kind} is called {name!r}"
     if kind == "method" and name in words.VARIATIONS:
         why = f"{name} is used by a single study only, {words.VARIATIONS[name].about}"
-    raise ValueError(f"{why}; near to it are {near(name, table)}; make words explains all")
+    raise ValueError(f"{why}; {near(name, table)}; make words lists all")
 
 
 def near(name: str, names: Iterable[str]) -> str:
-    """Names like one; if there are none all where these are few, else the usual ones."""
+    """Which names are like one; if none is, all where these are few, else the usual ones."""
     known = list(names)
-    if alike := get_close_matches(name, known, 4, 0.4) or known*(len(known) <= FEW):
-        return ", ".join(alike)
-    return f"none of {len(known)} such as {', '.join(one for one in USUAL if one in known)}"
+    if alike := get_close_matches(name, known, 4, 0.4):
+        return f"near to it are {', '.join(alike)}"
+    if len(known) <= FEW:
+        return f"there are {', '.join(known)}"
+    usual = ", ".join(one for one in USUAL if one in known)
+    return f"no name of {len(known)} is near to it; the usual ones are {usual}"

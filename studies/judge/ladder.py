@@ -130,18 +130,23 @@ def climb(method: Any, rows: Sequence[int], minutes: float) -> list[Take]:
     """A method on its way up, from few rows to many; what takes longer than the minutes is left out."""
     end, takes = monotonic() + 60*minutes, list[Take]()
     places = [(rung, count) for rung in RUNGS for count in (rows if rung.every else rows[:1])]
+    works = [work(*place) for place in places]
     for number, place in enumerate(places, 1):
-        takes.append(taken(method, *place, end - monotonic(), takes))
-        done, left = (sum(work(*each) for each in part) for part in (places[:number], places[number:]))
-        rest, take = sum(take.seconds for take in takes)*left/done, takes[-1]
+        take = taken(method, *place, end - monotonic(), takes)
+        takes.append(take)
+        # the first run compiles most, others less: the fastest shows what a run alone takes
+        paces = [one.seconds/size for one, size in zip(takes, works) if one.numbers]
+        left = f"; about {min(paces)*sum(works[number:]):.0f} s left" if len(paces) > 1 else ""
         print(f"[{number}/{len(places)}] {take.rung}, {take.rows} rows: "
-              f"{take.fault or f'{take.seconds:.1f} s'}; about {rest:.0f} s left", file=sys.stderr)
+              f"{take.fault or f'{take.seconds:.1f} s'}{left}", file=sys.stderr)
     return takes
 
 
 def taken(method: Any, rung: Rung, rows: int, left: float, before: list[Take]) -> Take:
     """One; not begun where the seconds that are left would not do."""
-    needed = foreseen(rung, rows, before)
+    # as the same rung with fewer rows foretells; nothing is known of the first
+    same = [take for take in before if take.rung == rung.name and take.numbers]
+    needed = same[-1].seconds*work(rung, rows)/work(rung, same[-1].rows) if same else 0.0
     if needed > left:
         return Take(rung.name, rows, {}, 0.0,
                     f"{LEFT_OUT} it takes some {needed/60:.0f} minutes; --minutes gives more")
@@ -171,12 +176,6 @@ def work(rung: Rung, rows: int) -> float:
     scene = rung.scene(rows)
     usual, unit = duration(scene)
     return float(scene.width*scene.L*usual*unit)
-
-
-def foreseen(rung: Rung, rows: int, before: list[Take]) -> float:
-    """Seconds, from the same rung with fewer rows; nothing is known of the first."""
-    same = [take for take in before if take.rung == rung.name and take.numbers]
-    return same[-1].seconds*work(rung, rows)/work(rung, same[-1].rows) if same else 0.0
 
 
 def judged(rung: Rung, takes: Sequence[Take]) -> Verdict:

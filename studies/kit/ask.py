@@ -33,11 +33,8 @@ from studies.kit.value import (
     rows,
 )
 
-__all__ = [
-    "NoRows", "Value", "WrongQuestion", "bench", "curve", "each", "farthest", "farthest_of", "farthest_per",
-    "first", "largest", "largest_of", "largest_per", "last", "least", "of", "one", "over_seeds", "power",
-    "question", "rows", "share", "spread", "total",
-]
+#: what studies find here, too
+__all__ = ["NoRows", "Value", "WrongQuestion", "of", "rows"]
 
 Array = np.ndarray
 #: one number of values (n,) and errors (n,)
@@ -230,19 +227,15 @@ def each(columns: str | Sequence[str], value: Value, tables: Tables) -> list[Mea
     chosen = value.asks[0]
     frame = chosen(tables)
     check_columns(chosen.table, frame, by)
+    asked = {chosen.table for chosen in value.asks} & {*tables}
     answers, missing = [], None
     for key, _ in frame.groupby(by):
-        where = dict(zip(by, key))
+        where: dict[str, Any] = dict(zip(by, key))
+        fewer = {name: rows(tables, name, need=0, **where) for name in asked}
         try:
-            answers.append(value(narrowed(tables, value, where)))
+            answers.append(value(Tables({**tables, **fewer})))
         except NoRows as error:
             missing = error
     if missing and not answers:
         raise missing
     return answers
-
-
-def narrowed(tables: Tables, value: Value, where: dict[str, Any]) -> Tables:
-    """Tables in which those of a question have only the rows that are meant."""
-    names = {chosen.table for chosen in value.asks} & {*tables}
-    return Tables({**tables, **{name: rows(tables, name, need=0, **where) for name in names}})

@@ -2,15 +2,15 @@
 import dataclasses
 import json
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from enum import Enum
 from functools import cache, cached_property
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any, ClassVar, dataclass_transform
 
 from studies.kit.key import CODE, PACKAGES, ROOT, Code, digest, followed, name_of
 from studies.kit.syntax import CASE, WHOLE, Place
-from studies.kit.table import Rows
+from studies.kit.table import Row, Rows
 
 #: called with the fraction done, in [0, 1]
 Report = Callable[[float], None]
@@ -23,6 +23,7 @@ class Outcome:
     rows: Rows
 
 
+@dataclass_transform(frozen_default=True, kw_only_default=True)
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class Case:
     """Base of all cases; a subclass is a frozen keyword-only dataclass whose fields are the parameters.
@@ -33,6 +34,14 @@ class Case:
 
     #: True for timings: the case then has the machine to itself
     alone: ClassVar[bool] = False
+    table: ClassVar[str] = ""   # of all rows
+    same: ClassVar[str] = ""    # fields and properties that are columns of each
+
+    def __init_subclass__(cls, table: str = "", same: str = "") -> None:
+        """``class Wave(Case, table="waves", same="k seed")`` needs no decorator and no columns k, seed."""
+        if table or same:
+            cls.table, cls.same = table or cls.table, same or cls.same
+            dataclasses.dataclass(frozen=True, kw_only=True)(cls)
 
     @property
     def cost(self) -> float:
@@ -45,8 +54,17 @@ class Case:
         values = [getattr(self, field.name) for field in dataclasses.fields(self)]
         return " ".join([type(self).__name__, *map(word, values)])
 
+    @property
+    def columns(self) -> Row:
+        """What all rows have in common: fields that are columns, functions and records by their names."""
+        return {name: called(getattr(self, name)) for name in self.same.split()}
+
     def run(self, report: Report, folder: Path) -> Outcome:
         """Compute. ``folder`` is for checkpoints: it is kept until the case is finished."""
+        return Outcome({self.table: [self.columns | row for row in self.measure(report)]})
+
+    def measure(self, report: Report) -> Iterable[Row]:
+        """What is measured; a case of several tables, or with checkpoints, has a `run` of its own."""
         raise NotImplementedError
 
     @cached_property
@@ -67,6 +85,11 @@ def word(value: Any) -> str:
     own = [f"{name}={word(getattr(value, name))}" for name, default in usual.items()
            if getattr(value, name) != default]
     return f"{type(value).__name__}({', '.join(own)})"
+
+
+def called(value: Any) -> Any:
+    """A parameter as a column has it: a record or a function by its name."""
+    return getattr(value, "name", getattr(value, "__name__", value))
 
 
 def defaults(kind: Any) -> dict[str, Any] | None:

@@ -65,7 +65,9 @@ def keep(case: Case, result: str | Failure, folder: Path) -> Failure | None:
             return result
         write_atomic(story, result.story)
         return replace(result, path=story)
-    write_atomic(folder / f"{case.key}.json", sealed(case, json.loads(result)))
+    content = json.loads(result)
+    sealed = {**content, "seal": seal(case, content)}
+    write_atomic(folder / f"{case.key}.json", json.dumps(sealed, indent=1))
     story.unlink(missing_ok=True)
     shutil.rmtree(folder / case.key, ignore_errors=True)    # a case of a cluster has none here
     return None
@@ -78,12 +80,8 @@ def as_text(case: Case, outcome: Outcome, cpu_s: float) -> str:
     return json.dumps(content, default=lambda value: value.tolist(), indent=1)      # numpy's as Python's
 
 
-def sealed(case: Case, content: dict[str, Any]) -> str:
-    """Content as it is kept: with a hash of all of it and of the case's key."""
-    return json.dumps({**content, "seal": seal(case, content)}, indent=1)
-
-
 def seal(case: Case, content: dict[str, Any]) -> str:
+    """A hash of all that is kept, and of the case's key."""
     return digest(case.key, json.dumps(content, sort_keys=True))
 
 

@@ -131,6 +131,13 @@ def error_of(formula: str, err: str, table: str, frame: pd.DataFrame) -> str:
 
 # --- values ----------------------------------------------------------------------------------------
 
+Operation = Callable[["Value", Any], "Value"]
+
+
+def sided(sign: str, combined: Callable[..., Measured]) -> tuple[Operation, Operation]:
+    """An operator with the question on its left, and on its right."""
+    return (lambda a, b: both(a, b, sign, combined)), (lambda a, b: both(b, a, sign, combined))
+
 
 @dataclass(frozen=True)
 class Value:
@@ -149,29 +156,10 @@ class Value:
     def __str__(self) -> str:
         return self.text
 
-    def __add__(self, other: "Value | float") -> "Value":
-        return both(self, other, "+", operator.add)
-
-    def __radd__(self, other: float) -> "Value":
-        return both(other, self, "+", operator.add)
-
-    def __sub__(self, other: "Value | float") -> "Value":
-        return both(self, other, "-", operator.sub)
-
-    def __rsub__(self, other: float) -> "Value":
-        return both(other, self, "-", operator.sub)
-
-    def __mul__(self, other: "Value | float") -> "Value":
-        return both(self, other, "*", operator.mul)
-
-    def __rmul__(self, other: float) -> "Value":
-        return both(other, self, "*", operator.mul)
-
-    def __truediv__(self, other: "Value | float") -> "Value":
-        return both(self, other, "/", operator.truediv)
-
-    def __rtruediv__(self, other: float) -> "Value":
-        return both(other, self, "/", operator.truediv)
+    __add__, __radd__ = sided("+", operator.add)
+    __sub__, __rsub__ = sided("-", operator.sub)
+    __mul__, __rmul__ = sided("*", operator.mul)
+    __truediv__, __rtruediv__ = sided("/", operator.truediv)
 
     def __pow__(self, power: float) -> "Value":
         return self.then(lambda number: number**power, f"({self})^{power:g}")

@@ -18,8 +18,7 @@ from studies.build.setting import DISORDERS
 from studies.kit.case import Case
 from studies.kit.table import Table
 from studies.noise import dissipative, partners
-from studies.noise.below_onset import BelowOnset
-from studies.noise.covariance import STEPS as INTEGRATORS
+from studies.noise.covariance import INTEGRATORS, BelowOnset
 from studies.noise.dissipative import AtRest, Fluid, LongRun
 from studies.noise.partners import Formula, Partnership
 from studies.noise.printed_noise import Capacity, MovingSteps, PrintedWaves, Steps
@@ -55,7 +54,7 @@ def quick() -> list[Case]:
     """Some of each kind."""
     return [
         *formulas(), *algebra(("lattice", "jittered-0.3"), {2: (8, 8)}), *printed(), *steps(),
-        BelowOnset(rows=6, below=BELOW),
+        BelowOnset(rows=6, parts=BELOW),
         Nonlinear(counts=(5, 5), share=0.1, k=1e-3, time=115.0),
         *(Capacity(C=20.0, corrected=one, steps=400) for one in (True, False)),
         *temperatures((0.02, 0.04, 0.06), side=5.0, steps=1000),
@@ -67,7 +66,7 @@ def paper() -> list[Case]:
     """All; what was run longer because a shorter run left it open says so."""
     return [
         *formulas(), *algebra(KINDS, {1: (20,), 2: (10, 12), 3: (5, 5, 6)}), *printed(), *steps(),
-        *(BelowOnset(rows=rows, below=BELOW) for rows in (8, 12, 16)),
+        *(BelowOnset(rows=rows, parts=BELOW) for rows in (8, 12, 16)),
         Nonlinear(counts=(8, 8), share=0.1, k=1e-3, time=200.0),
         *(Capacity(C=C, corrected=one, steps=10000) for one in (True, False) for C in (20.0, 50.0)),
         *temperatures(LIQUID, side=8.0, steps=LONG),
@@ -87,7 +86,7 @@ def algebra(kinds: tuple[str, ...], counts: dict[int, tuple[int, ...]]) -> Itera
     for (name, maker), kind, d in product(MAKERS.items(), kinds, counts):
         if not (name == "delaunay" and (d == 1 or (d == 3 and kind == "lattice"))):
             h = 2.7 if d < 3 else 2.4
-            yield Partnership(maker=maker, disorder=DISORDERS[kind], counts=counts[d], h=h)
+            yield Partnership(maker=maker, points=DISORDERS[kind], counts=counts[d], h=h)
 
 
 def printed() -> Iterator[Case]:
@@ -101,8 +100,8 @@ def printed() -> Iterator[Case]:
 def steps() -> Iterator[Case]:
     """All integrators, waves of 15 to 300 spacings."""
     for k in (0.02, 0.1, 0.4):
-        yield from (Steps(integrator=integrator, k=k, dt=DT) for integrator in INTEGRATORS.values())
-        yield from (MovingSteps(k=k, dt=DT, both=both) for both in (True, False))
+        yield from (Steps(integrator=name, wavenumber=k, dt=DT) for name in INTEGRATORS)
+        yield from (MovingSteps(wavenumber=k, dt=DT, both=both) for both in (True, False))
 
 
 def temperatures(dts: tuple[float, ...], *, side: float, steps: int) -> Iterator[Fluid]:

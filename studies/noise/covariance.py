@@ -4,14 +4,29 @@
     x(t + dt) = A x(t) + noise of variance Q_dt       C = A C A^* + Q_dt                 [RR98 Eq. 40]
 
 What is conserved (rows L with L J = 0, L Q = 0) keeps its value: covariances are those at fixed sums.
+
+About a layer heated from below the flow is linearised by differences of the rates that run, noise is that of
+`fluctuating`. Boltzmann's k is 1: linear fluctuations are proportional to it.
 """
-from collections.abc import Callable
-from typing import NamedTuple
+from collections.abc import Callable, Iterator
+from typing import Any, NamedTuple
 
 import numpy as np
+from scipy import sparse
 from scipy.linalg import null_space, solve_continuous_lyapunov, solve_discrete_lyapunov
+from scipy.optimize import brentq
 
+from continuum.scene import RayleighBenard
+from particles.integral import fluctuating
+from particles.integral.edges import Edges
+from particles.integral.fluctuating import Partners
+from particles.integral.layer import Layer
 from particles.integral.thermal import BETAS, OLD
+from particles.limits import jacobian
+from particles.threads import Threads
+from studies.build.fixed import Scheme, layer
+from studies.kit.case import Case, Report
+from studies.kit.table import Row
 
 #: of the size of J: rates above its negative belong to modes that do not decay; differences leave 1e-12
 UNDAMPED = 1e-10
@@ -88,5 +103,94 @@ def three_stage(J: np.ndarray, Q: np.ndarray, dt: float) -> Step:
     return Step(A, dt*(of_A@Q@of_A.conj().T + of_B@Q@of_B.conj().T))
 
 
-STEPS: dict[str, Callable[[np.ndarray, np.ndarray, float], Step]] = {
+INTEGRATORS: dict[str, Callable[[np.ndarray, np.ndarray, float], Step]] = {
     "forward-euler": forward_euler, "crank-nicolson": crank_nicolson, "three-stage": three_stage}
+
+
+# --- a gas at rest ----------------------------------------------------------------------------
+
+
+def transport(edges: Edges, share: float, eta: float, zeta: float, kappa: float,
+              T: Any) -> tuple[Partners, Partners]:
+    """Viscosity and conduction with their noise, a share of it along edges: of momenta and of energies."""
+    stress = fluctuating.stress(edges, eta, zeta, T)
+    heat = fluctuating.heat(edges, kappa, T**2)
+    if share == 0:
+        return stress, heat
+    friction = fluctuating.friction(edges, eta, zeta, T)
+    conduction = fluctuating.conduction(edges, kappa, T**2)
+    return fluctuating.mixed(stress, friction, share), fluctuating.mixed(heat, conduction, share)
+
+
+def noise(V: np.ndarray, of_momenta: Any, of_energies: Any) -> sparse.csr_array:
+    """Q (N, N) of a state of densities at rest from those of momenta and energies."""
+    n, d = len(V), of_momenta.shape[0]//len(V)
+    per = sparse.diags_array(np.tile(1/V, 2 + d))
+    Q = sparse.block_diag([sparse.csr_array((n, n)), of_momenta, of_energies])
+    return sparse.csr_array(per@Q@per)
+
+
+# --- a layer heated from below --------------------------------------------------------------------------
+
+LATTICE = Scheme("fixed-lattice")
+K_HEIGHT = 3.117        # wave number times height of what grows first
+
+
+class BelowOnset(Case, table="onset", same="rows"):
+    """The motionless layer of KHP95 between plates, `rows` high: waves k = 3.117/L on the way to onset.
+
+    velocity : the variance of vertical velocities, which is 1 in equilibrium.
+    """
+    rows: int
+    parts: tuple[float, ...]        # 1 - Ra/Ra_c
+
+    def measure(self, report: Report) -> Iterator[Row]:
+        critical = onset(self.rows)
+        for below in self.parts:
+            variances = np.diag(steady(*matrices(self.rows, critical*(1 - below)))).real
+            velocity = variances[2*self.rows:3*self.rows].mean()
+            yield {"below": below, "ra_c": critical, "velocity": float(velocity)}
+
+
+def onset(rows: int) -> float:
+    """Ra_c, where the slowest mode neither grows nor decays."""
+    def rate(ra: float) -> float:
+        return float(np.linalg.eigvals(matrices(rows, ra)[0]).real.max())
+    return float(brentq(rate, 1000, 3000, xtol=1e-6))
+
+
+def matrices(rows: int, ra: float) -> tuple[np.ndarray, np.ndarray]:
+    """J and Q of the waves at one Rayleigh number."""
+    counts, k = (5, rows), K_HEIGHT/rows
+    scene = RayleighBenard(ra=ra, L=float(rows), aspect=5/rows)
+    fluid = layer(scene, LATTICE, 1)
+    x, n = fluid.x, len(fluid.x)
+    T = scene.T(x[:, 1])
+    sums = fluid.start(n, Threads(1))
+    first = np.arange(rows)             # points at the left end
+    J = jacobian(sums.rates, fluid.state(1.0, 0*x, T), first)
+    fields = np.arange(4)[:, None]
+    columns = (fields*n + first).ravel()
+    Q = layer_noise(fluid, T)[:, columns].toarray()
+    return waves(J, counts, k), waves(Q, counts, k)
+
+
+def layer_noise(fluid: Layer, T: np.ndarray) -> sparse.csr_array:
+    """Q of a layer at rest with transport along edges; edges to images have the temperature of their plate.
+
+    Images have -v and 2 T_w - T: friction and heat over an edge to one are k (v_i + v_parent), the noise that
+    of its two points alike.
+    """
+    edges, beyond, law, n = fluid.edges, fluid.beyond, fluid.law, len(T)
+    rows = np.concatenate([beyond.i, beyond.parent])
+    columns = np.tile(beyond.i, 2)
+    T_wall = np.array(fluid.T_plates)[beyond.plate]
+
+    def of_plate(q: np.ndarray) -> sparse.csr_array:
+        values = np.tile(beyond.k*q, 2)
+        return sparse.csr_array((values, (columns, rows)), shape=(n, n))
+    momenta, energies = transport(edges, 1.0, law.eta, 0.0, law.k, T)
+    friction = of_plate(2*law.eta*T_wall)
+    heat = of_plate(2*law.k*T_wall**2)
+    both = sparse.kron(sparse.eye_array(2), friction)
+    return noise(edges.V, momenta.Q + both, energies.Q + heat)

@@ -2,10 +2,8 @@
 
 The fluid has a = 25, rho = 3, gamma = 4.5, rc = kT = 1, unit masses, in a periodic cube.
 """
-from collections.abc import Callable
-from dataclasses import dataclass, replace
-from pathlib import Path
-from typing import Any
+from collections.abc import Callable, Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -22,16 +20,16 @@ from particles.dissipative.pairs3d import Uniform
 from particles.noise import uniform_of_pair
 from particles.run import Plan, Run, run
 from particles.threads import Threads
-from studies.kit.case import Case, Outcome, Report
+from studies.kit.case import Case, Report
 from studies.kit.stats import Measured, mean, with_errors
+from studies.kit.table import Row
 
 RHO = 3.0
 SETTLE = 10.0       # time: some twenty times of friction, 1/(rho gamma int w^2/d) = 0.5, and of rearrangement
 RECORD = 0.1        # between records: less than any correlation that counts
 
 
-@dataclass(frozen=True, kw_only=True)
-class Fluid(Case):
+class Fluid(Case, same="integrator side dt time seed"):
     """Common parameters: a periodic cube of `side`, steps of dt for `time` after settling."""
     integrator: type
     dt: float = 0.02
@@ -63,32 +61,29 @@ class Fluid(Case):
         plan = Plan(dt=self.dt, steps=records*every, every=every, series=series)
         return run(method, self.settled(method), plan, report)
 
-    def row(self, done: Run, **measured: Measured) -> dict[str, Any]:
-        """What a run is of, what it cost, and means with their errors."""
-        return {"integrator": self.integrator.__name__, "side": self.side, "dt": self.dt,
-                "n": done.state.shape[1], "time": self.time, "seed": self.seed, "cpu_s": done.cpu_s,
-                "compile_s": done.compile_s, **with_errors(**measured)}
+    @staticmethod
+    def row(done: Run, **measured: Measured) -> Row:
+        """What a run cost, and means with their errors."""
+        return {"n": done.state.shape[1], "cpu_s": done.cpu_s, "compile_s": done.compile_s,
+                **with_errors(**measured)}
 
 
-@dataclass(frozen=True, kw_only=True)
-class AtRest(Fluid):
+class AtRest(Fluid, table="states"):
     """kT of velocities and of positions, pressure."""
 
-    def run(self, report: Report, folder: Path) -> Outcome:
+    def measure(self, report: Report) -> Iterator[Row]:
         done = self.recorded(self.method(), report, kinetic=kinetic_temperature, P=pressure,
                              configurational=configurational_temperature)
-        means = {name: mean(x) for name, x in done.series.items()}
-        return Outcome({"states": [self.row(done, **means)]})
+        yield self.row(done, **{name: mean(x) for name, x in done.series.items()})
 
 
-@dataclass(frozen=True, kw_only=True)
-class LongRun(Fluid):
+class LongRun(Fluid, table="long"):
     """The same for a long time; the configurational kT is one ratio of means, which is not off by 1/n.
 
     The pressure has rho kT with the kT that is asked for, as that of Allen & Tildesley has.
     """
 
-    def run(self, report: Report, folder: Path) -> Outcome:
+    def measure(self, report: Report) -> Iterator[Row]:
         method = self.method()
         done = self.recorded(method, report, kinetic=kinetic_temperature, F2=forces_squared, lap=laplacian,
                              P=pressure)
@@ -97,8 +92,7 @@ class LongRun(Fluid):
         error = mean((F2 - ratio*lap)/lap.mean()).err
         rho = done.state.shape[1]/method.volume
         asked = P - rho*(kinetic - method.kT)
-        row = self.row(done, kinetic=mean(kinetic), configurational=Measured(ratio, error), P=mean(asked))
-        return Outcome({"long": [row]})
+        yield self.row(done, kinetic=mean(kinetic), configurational=Measured(ratio, error), P=mean(asked))
 
 
 # --- a special case of Eqs 42, 49, 51 -----------------------------------------------------------

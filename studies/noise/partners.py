@@ -2,13 +2,10 @@
 
 States of a gas about rho = T = 1, C_V = 1 are densities (rho, p, eps); Boltzmann's k is 1.
 """
-from collections.abc import Callable
-from dataclasses import dataclass, replace
-from pathlib import Path
-from typing import Any
+from collections.abc import Callable, Iterator
+from dataclasses import replace
 
 import numpy as np
-from scipy import sparse
 
 from particles.integral import fluctuating
 from particles.integral.edge_makers import delaunay, renormalised
@@ -17,59 +14,32 @@ from particles.integral.fluctuating import Partners, mismatch
 from particles.integral.points import lattice, random
 from particles.weights import Lucy, WendlandC2
 from studies.build.setting import Disorder
-from studies.kit.case import Case, Outcome, Report
+from studies.kit.case import Case, Report
+from studies.kit.table import Row
 from studies.noise.covariance import crank_nicolson, steady_of_steps
 
 ETA, ZETA, KAPPA = 0.3, 0.1, 0.4
 KT = 0.7
 
-# --- a gas at rest ----------------------------------------------------------------------------
-
-
-def transport(edges: Edges, share: float, eta: float, zeta: float, kappa: float,
-              T: Any) -> tuple[Partners, Partners]:
-    """Viscosity and conduction with their noise, a share of it along edges: of momenta and of energies."""
-    stress = fluctuating.stress(edges, eta, zeta, T)
-    heat = fluctuating.heat(edges, kappa, T**2)
-    if share == 0:
-        return stress, heat
-    friction = fluctuating.friction(edges, eta, zeta, T)
-    conduction = fluctuating.conduction(edges, kappa, T**2)
-    return fluctuating.mixed(stress, friction, share), fluctuating.mixed(heat, conduction, share)
-
-
-def noise(V: np.ndarray, of_momenta: Any, of_energies: Any) -> sparse.csr_array:
-    """Q (N, N) of a state of densities at rest from those of momenta and energies."""
-    n, d = len(V), of_momenta.shape[0]//len(V)
-    per = sparse.diags_array(np.tile(1/V, 2 + d))
-    Q = sparse.block_diag([sparse.csr_array((n, n)), of_momenta, of_energies])
-    return sparse.csr_array(per@Q@per)
-
-
 # --- partners ---------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, kw_only=True)
-class Partnership(Case):
+class Partnership(Case, table="partners", same="maker points"):
     """Kinds of noise that are to be exact, on one set of points."""
     maker: Callable
-    disorder: Disorder
+    points: Disorder
     counts: tuple[int, ...]
     h: float = 2.7
     seed: int = 1
 
-    def run(self, report: Report, folder: Path) -> Outcome:
-        points = self.disorder.make(self.counts, self.disorder.size, self.seed)
+    def measure(self, report: Report) -> Iterator[Row]:
+        points = self.points.make(self.counts, self.points.size, self.seed)
         try:
             edges = self.maker(points, WendlandC2.of(h=self.h, d=points.d))
         except ArithmeticError:         # these points have no such edges: see the study operators
-            return Outcome({"partners": []})
-        key = {"maker": self.maker.__name__, "points": self.disorder.name, "d": points.d}
-        rows = []
+            return
         for name, pair in kinds(edges, self.seed).items():
-            off = {"mismatch": mismatch(pair, 2*KT), "sums": sums(edges, pair)}
-            rows.append({**key, "noise": name, **off})
-        return Outcome({"partners": rows})
+            yield {"d": points.d, "noise": name, "mismatch": mismatch(pair, 2*KT), "sums": sums(edges, pair)}
 
 
 def kinds(edges: Edges, seed: int) -> dict[str, Partners]:
@@ -100,14 +70,13 @@ def sums(edges: Edges, pair: Partners) -> float:
 # --- formulas ---------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, kw_only=True)
-class Formula(Case):
+class Formula(Case, table="formulas", same="name"):
     """What a printed formula gives by arithmetic."""
     name: str
     value: Callable[[], float]
 
-    def run(self, report: Report, folder: Path) -> Outcome:
-        return Outcome({"formulas": [{"name": self.name, "value": self.value()}]})
+    def measure(self, report: Report) -> Iterator[Row]:
+        yield {"value": self.value()}
 
 
 def other_partner() -> float:

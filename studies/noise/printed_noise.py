@@ -5,8 +5,6 @@ the variance 1 in equilibrium. Steps are in units of nu/c^2, c the adiabatic spe
 not k.
 """
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -21,17 +19,17 @@ from particles.integral.points import lattice
 from particles.integral.thermal import fill_pairs
 from particles.weights import Lucy
 from studies.build.symbols import neighbours
-from studies.kit.case import Case, Outcome, Report
+from studies.kit.case import Case, Report
 from studies.kit.stats import over_seeds, with_errors
-from studies.noise.covariance import Step, steady_of_steps
+from studies.kit.table import Row
+from studies.noise.covariance import INTEGRATORS, Step, steady_of_steps
 from studies.noise.partners import ETA, KAPPA, KT
 from studies.noise.sampling import BATCHES, check_length
 
 WAVES = 32          # spacings of the longest wave
 
 
-@dataclass(frozen=True, kw_only=True)
-class PrintedWaves(Case):
+class PrintedWaves(Case, table="printed", same="equation term reading d h"):
     """Variance of printed noise over its due, 2 kT Gamma of Eq. 37 or 38, on a lattice; T = 0.7.
 
     term : "eta" across k, "zeta" along k, "kappa". h 1.5 in 1D and 1.2 in 2D: nearest neighbours.
@@ -56,20 +54,17 @@ class PrintedWaves(Case):
     def label(self) -> str:
         return f"Eq. {self.equation} {self.term} {self.reading}, {self.d}D, h {self.h:g}"
 
-    def run(self, report: Report, folder: Path) -> Outcome:
+    def measure(self, report: Report) -> Iterator[Row]:
         breadth = 2*int(np.ceil(self.h)) + 1
         points = lattice((WAVES, *[breadth]*(self.d - 1)))
         edges = renormalised(points, Lucy.of(h=self.h, d=self.d))
         pair, twice = self.noise(edges)
         components = pair.Gamma.shape[0]//edges.n
         direction = np.eye(components)[1 if self.term == "eta" else 0]
-        key = {name: getattr(self, name) for name in ("equation", "term", "reading", "d", "h")}
-        rows = []
         for k in 2*np.pi/WAVES*np.arange(1, WAVES//2):
             wave = np.kron(direction, np.exp(1j*k*points.x[:, 0]))
             ratio = form(pair.Q, wave)/(twice*form(pair.Gamma, wave))
-            rows.append({**key, "wavenumber": k, "ratio": ratio, "predicted": self.predicted(k)})
-        return Outcome({"printed": rows})
+            yield {"wavenumber": k, "ratio": ratio, "predicted": self.predicted(k)}
 
     def noise(self, edges: Edges) -> tuple[Partners, float]:
         """The printed one, and 2 kT or 2 k T^2."""
@@ -135,48 +130,42 @@ def stable(step: Callable[[float], tuple], times: Iterable[float]) -> Iterator[t
             continue
 
 
-@dataclass(frozen=True, kw_only=True)
-class Steps(Case):
+class Steps(Case, table="steps", same="integrator wavenumber"):
     """What one integrator makes of one wave; dt in eta/(rho c^2), c^2 = 1 isothermal, 2 of the gas."""
-    integrator: Callable
-    k: float
+    integrator: str
+    wavenumber: float
     dt: tuple[float, ...]
 
-    def run(self, report: Report, folder: Path) -> Outcome:
-        J, Q = gas(self.k)
-        isothermal = self.rows("isothermal", J[:2, :2], Q[:2, :2], 1)
-        return Outcome({"steps": [*isothermal, *self.rows("gas", J, Q, 2)]})
-
-    def rows(self, fluid: str, J: np.ndarray, Q: np.ndarray, c2: float) -> Iterator[dict[str, Any]]:
-        """One a stable step."""
-        name = self.integrator.__name__.replace("_", "-")
-        for dt, C in stable(lambda dt: (self.integrator(J, Q, dt*ETA/c2),), self.dt):
-            error = float(np.abs(C - np.eye(len(C))).max())
-            yield {"integrator": name, "fluid": fluid, "wavenumber": self.k, "dt": dt, "velocity": C[1, 1],
-                   "error": error}
+    def measure(self, report: Report) -> Iterator[Row]:
+        """One row a stable step."""
+        integrator, (J, Q) = INTEGRATORS[self.integrator], gas(self.wavenumber)
+        for fluid, size, c2 in (("isothermal", 2, 1), ("gas", 3, 2)):
+            matrices = J[:size, :size], Q[:size, :size]
+            for dt, C in stable(lambda dt: (integrator(*matrices, dt*ETA/c2),), self.dt):  # noqa: B023
+                error = float(np.abs(C - np.eye(size)).max())
+                yield {"fluid": fluid, "dt": dt, "velocity": C[1, 1], "error": error}
 
 
-@dataclass(frozen=True, kw_only=True)
-class MovingSteps(Case):
+class MovingSteps(Case, table="steps", same="wavenumber"):
     """Points that move as Eq. 39 says, isothermal: density, velocity and displacement of one wave.
 
     As printed, the constant volume lets displacements x push back with 2 P grad(n dV): u' = -i s rho - 2 s^2
     x - l u, besides rho' = -i s u, x' = u. With rho = -i s x, as it stays from rest on, stiffness is (1 + 2)
     c_T^2; <u u> is 1. both : the positions by Eq. 40 as well, not by Eq. 41.
     """
-    k: float
+    wavenumber: float
     dt: tuple[float, ...]
     both: bool
 
-    def run(self, report: Report, folder: Path) -> Outcome:
+    def measure(self, report: Report) -> Iterator[Row]:
         name = "eq40-eq40" if self.both else "eq40-eq41"
-        rows = [{"integrator": name, "fluid": "moving", "wavenumber": self.k, "dt": dt, "velocity": C[1, 1],
-                 "error": abs(C[1, 1] - 1)} for dt, C in stable(self.step, self.dt)]
-        return Outcome({"steps": rows})
+        for dt, C in stable(self.step, self.dt):
+            yield {"integrator": name, "fluid": "moving", "dt": dt, "velocity": C[1, 1],
+                   "error": abs(C[1, 1] - 1)}
 
     def step(self, of_limit: float) -> tuple[Step, np.ndarray]:
         """One step, and what it keeps: rho + i s x, less i s dt u where x moves with the new velocity."""
-        s, lap = line_symbols(self.k)
+        s, lap = line_symbols(self.wavenumber)
         l, dt = ETA*lap, of_limit*ETA
         rates = np.array([[0, -1j*s, 0],
                           [-1j*s, -l, -2*s*s],
@@ -219,8 +208,7 @@ def dirichlet(n: int, C: float, corrected: bool) -> float:
     return (n - 1)/(n*(C + corrected) + 1)
 
 
-@dataclass(frozen=True, kw_only=True)
-class Capacity(Case):
+class Capacity(Case, table="capacity", same="C noise"):
     """Variance of temperature with current amplitudes, with and without Ito's correction."""
     C: float
     corrected: bool
@@ -233,7 +221,11 @@ class Capacity(Case):
     def cost(self) -> float:
         return BATCHES*self.steps*5e-5
 
-    def run(self, report: Report, folder: Path) -> Outcome:
+    @property
+    def noise(self) -> str:
+        return "corrected" if self.corrected else "current"
+
+    def measure(self, report: Report) -> Iterator[Row]:
         edges = renormalised(lattice(self.counts), Lucy.of(h=1.5))
         J = heat_rates(edges, self.C, self.corrected)
         check_length(J, self.steps*self.dt)
@@ -248,7 +240,5 @@ class Capacity(Case):
             variances.append(np.mean(looks[1::2]))
             report((batch + 1)/(BATCHES + 1))
         # `var` divides by n: (n - 1)/n of the variance of one point about the fixed mean is in it already
-        variance = over_seeds(variances[1:])
-        return Outcome({"capacity": [{
-            "C": self.C, "noise": "corrected" if self.corrected else "current",
-            "predicted": dirichlet(edges.n, self.C, self.corrected), **with_errors(measured=variance)}]})
+        yield {"predicted": dirichlet(edges.n, self.C, self.corrected),
+               **with_errors(measured=over_seeds(variances[1:]))}

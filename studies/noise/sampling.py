@@ -3,8 +3,8 @@
 Each mean is made of 20 batches, each ten decay times of the slowest mode or longer, started where the one
 before ended: their scatter, with its t factor, is the error.
 """
-from dataclasses import dataclass, replace
-from pathlib import Path
+from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -15,8 +15,9 @@ from particles.integral.points import jittered
 from particles.integral.thermal import Thermal
 from particles.limits import jacobian, limit_of
 from particles.run import Plan, run
-from studies.kit.case import Case, Outcome, Report
+from studies.kit.case import Case, Report
 from studies.kit.stats import over_seeds, with_errors
+from studies.kit.table import Row
 from studies.noise.partners import ETA, KAPPA, ZETA
 
 BATCHES = 20
@@ -32,8 +33,7 @@ def check_length(J: np.ndarray, time: float) -> None:
                          f"than {DECAYS}: batches would be correlated; take {DECAYS/slow:.4g} or longer")
 
 
-@dataclass(frozen=True, kw_only=True)
-class Nonlinear(Case):
+class Nonlinear(Case, table="nonlinear", same="share k"):
     """Variances of rho, v and T in the full equations on jittered points, over equilibrium."""
     counts: tuple[int, int]
     share: float
@@ -45,7 +45,7 @@ class Nonlinear(Case):
     def cost(self) -> float:
         return BATCHES*self.time/0.1*3e-3
 
-    def run(self, report: Report, folder: Path) -> Outcome:
+    def measure(self, report: Report) -> Iterator[Row]:
         edges = delaunay(jittered(self.counts, 0.2, self.seed), None)
         method = Thermal(edges=edges, eos=IdealGas(), law=ConstEta(ETA, KAPPA), zeta=ZETA, share=self.share,
                          k=self.k, seed=self.seed)
@@ -64,10 +64,8 @@ class Nonlinear(Case):
         before = start@V
         drift = np.abs(state@V - before).max()/before[-1]
         ratios = np.array(powers[1:])/(edges.n - 1)/self.k      # the first batch forgets the start
-        key = {"share": self.share, "k": self.k, "drift": drift}
-        rows = [{**key, "field": name, **with_errors(ratio=over_seeds(values))}
-                for name, values in zip(("rho", "v", "T"), ratios.T, strict=True)]
-        return Outcome({"nonlinear": rows})
+        for name, values in zip(("rho", "v", "T"), ratios.T, strict=True):
+            yield {"drift": drift, "field": name, **with_errors(ratio=over_seeds(values))}
 
 
 def squares(flow: Any) -> np.ndarray:

@@ -2,8 +2,7 @@
 
 rho = 3, gamma = 4.5, rc = kT = 1, unit masses. A particle's entropy is C ln e.
 """
-from dataclasses import dataclass
-from pathlib import Path
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -12,8 +11,9 @@ from particles.dissipative.observe import kinetic_temperature
 from particles.dissipative.pairs3d import Uniform
 from particles.run import Plan, run
 from studies.kit import fits
-from studies.kit.case import Case, Outcome, Report
+from studies.kit.case import Case, Report
 from studies.kit.stats import mean, with_errors
+from studies.kit.table import Row
 from studies.noise.dissipative import RHO
 
 BOX = (12.0, 3.0, 3.0)
@@ -26,8 +26,7 @@ def kappa_of(diffusivity: float, C: float, rho: float = RHO) -> float:
     return 315*diffusivity/(2*np.pi*rho*C)
 
 
-@dataclass(frozen=True, kw_only=True)
-class Shared(Case):
+class Shared(Case, table="shared", same="a dt"):
     """A fluid that starts with halves of unlike temperature and is left alone; means of its later half."""
     a: float
     dt: float
@@ -38,7 +37,7 @@ class Shared(Case):
     def cost(self) -> float:
         return 3e-6*RHO*self.side**3*self.time/self.dt
 
-    def run(self, report: Report, folder: Path) -> Outcome:
+    def measure(self, report: Report) -> Iterator[Row]:
         method = Edpd(box=(self.side,)*3, a=self.a, C=FEW, kappa=kappa_of(0.1, FEW))
         start = method.random_start(RHO)
         start[-1] *= np.where(start[0] > 0, 1.5, 0.5)
@@ -52,8 +51,7 @@ class Shared(Case):
         kinetic, internal, variance = late
         means = with_errors(kinetic=mean(kinetic), internal=mean(internal), ratio=mean(kinetic/internal),
                             variance=mean(variance*(FEW + 1)))
-        row = {"a": self.a, "dt": self.dt, "n": start.shape[1], "drift": drift, **means}
-        return Outcome({"shared": [row]})
+        yield {"n": start.shape[1], "drift": drift, **means}
 
 
 def energy(sums, state: np.ndarray) -> float:
@@ -71,8 +69,7 @@ def relative_variance(sums, state: np.ndarray) -> float:
     return float(state[-1].var()/state[-1].mean()**2)
 
 
-@dataclass(frozen=True, kw_only=True)
-class Conduction(Case):
+class Conduction(Case, table="conduction", same="rho a given seed"):
     """A wave of temperature along x; the diffusivity that its decay shows beside the given one."""
     rho: float
     a: float
@@ -89,7 +86,7 @@ class Conduction(Case):
         time, dt = (1.0, 0.002) if self.given > 5 else (6.0, 0.01)
         return Plan(dt=dt, steps=round(time/dt), every=round(0.02*time/dt), series={"wave": wave})
 
-    def run(self, report: Report, folder: Path) -> Outcome:
+    def measure(self, report: Report) -> Iterator[Row]:
         method = Edpd(box=BOX, a=self.a, C=MANY, kappa=kappa_of(self.given, MANY, self.rho),
                       noise=Uniform(self.seed))
         start = method.random_start(self.rho, self.seed)
@@ -98,8 +95,7 @@ class Conduction(Case):
         t, size = np.array(done.times), np.array(done.series["wave"])
         late = (t > t[-1]/10) & (size > 0.01)
         rate = fits.line(t[late], np.log(size[late])).slope.value
-        return Outcome({"conduction": [{"rho": self.rho, "a": self.a, "given": self.given, "seed": self.seed,
-                                        "n": start.shape[1], "diffusivity": -rate/K**2}]})
+        yield {"n": start.shape[1], "diffusivity": -rate/K**2}
 
 
 def wave(sums, state: np.ndarray) -> float:

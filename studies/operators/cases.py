@@ -7,7 +7,6 @@ from itertools import product
 
 from continuum.exact.shear import couette, poiseuille
 from continuum.exact.waves import LinearGas
-from particles.integral.dih import NestedFluxes, Pairwise
 from particles.integral.edge_makers import MAKERS, delaunay, exact, renormalised
 from particles.integral.interpolants import Exponential, Gaussian
 from particles.weights import WEIGHTS, Lucy, WendlandC2
@@ -16,10 +15,9 @@ from studies.kit.case import Case
 from studies.operators import scheme
 from studies.operators.entropy import FLOWS, WAYS, Entropy
 from studies.operators.equations import Arithmetic, EquationErrors, of_dilation, of_rotation, of_volumes
+from studies.operators.makers import FACES, SETS, SMOOTH, MakerErrors, WallHeat
 from studies.operators.makers import MAKERS as TODAY
-from studies.operators.makers import SETS, MakerErrors
 from studies.operators.transport import BETWEEN, Decay, Drive, ShearFlow, of_edges
-from studies.operators.wall_heat import FACES, SMOOTH, WallHeat
 from studies.operators.weights import Continuum, ExponentialWave, LatticeSums, of_weights
 
 KINDS = (*WEIGHTS.values(), Exponential, Gaussian)
@@ -60,9 +58,9 @@ def weights(quick: bool) -> Iterator[Case]:
     for numbers in (of_weights, of_edges, of_volumes, of_dilation, of_rotation):
         yield Arithmetic(numbers=numbers)
     for kind in (Lucy, Exponential) if quick else KINDS:
-        yield from (Continuum(kind=kind, d=d) for d in (1, 2, 3))
-    yield from (LatticeSums(kind=Lucy, d=d, r0=r0) for d, r0 in product((1, 2, 3), (3.0, 6.0)))
-    yield from (LatticeSums(kind=Exponential, d=3, r0=r0) for r0 in (2.0, 4.0, 8.0))
+        yield from (Continuum(weight=kind, d=d) for d in (1, 2, 3))
+    yield from (LatticeSums(weight=Lucy, d=d, r0=r0) for d, r0 in product((1, 2, 3), (3.0, 6.0)))
+    yield from (LatticeSums(weight=Exponential, d=3, r0=r0) for r0 in (2.0, 4.0, 8.0))
     yield from (ExponentialWave(r0=float(r0), wavelength=128.0) for r0 in range(2, 9))
 
 
@@ -70,8 +68,8 @@ def equations(quick: bool) -> Iterator[Case]:
     """Terms against exact derivatives."""
     for d, (h, cells) in CELLS.items():
         if d < 3 or not quick:
-            yield from (EquationErrors(d=d, kind=WendlandC2, h=h, cells=n) for n in cells)
-    yield from (scheme.EdgeViscosities(d=d, forces=forces, h=6.0) for d, forces in product((2, 3), FORCES))
+            yield from (EquationErrors(d=d, weight=WendlandC2, h=h, cells=n) for n in cells)
+    yield from (scheme.EdgeViscosities(d=d, form=forces, h=6.0) for d, forces in product((2, 3), FORCES))
 
 
 def points(quick: bool) -> Iterator[Case]:
@@ -92,19 +90,19 @@ def on_points(case: type[scheme.PointSet], box: tuple[tuple[int, ...], float], m
     d = len(counts)
     for maker, kind, seed in product(makers, kinds, seeds):
         if maker != "delaunay" or not (d == 1 or (d == 3 and kind == "lattice")):
-            yield case(make=MAKERS[maker], disorder=DISORDERS[kind], counts=counts, h=h, seed=seed)
+            yield case(maker=MAKERS[maker], points=DISORDERS[kind], counts=counts, h=h, seed=seed)
 
 
 def waves(quick: bool) -> Iterator[Case]:
     """On a lattice, a strip as narrow as the range allows, and on three sets of points jittered by 0.3 a."""
     wavelengths = (16, 24, 32) if quick else (8, 16, 24, 32, 48, 64)
-    for way in (NestedFluxes(), Pairwise()):
+    for way in ("nested", "pairwise"):
         for h, n in product((2.0, 3.0), wavelengths):
-            yield Decay(transport=way, make=renormalised, h=h, disorder=DISORDERS["lattice"],
+            yield Decay(transport=way, maker=renormalised, h=h, points=DISORDERS["lattice"],
                         counts=(n, round(2*h) + 1), zeta=ZETA)
         irregular = product((delaunay, exact), (16, 24, LONG), SEEDS)
         for make, n, seed in [(delaunay, 16, 1)] if quick else irregular:
-            yield Decay(transport=way, make=make, h=3.0, disorder=DISORDERS["jittered-0.3"], counts=(n, 12),
+            yield Decay(transport=way, maker=make, h=3.0, points=DISORDERS["jittered-0.3"], counts=(n, 12),
                         zeta=ZETA, seed=seed)
 
 
@@ -114,7 +112,7 @@ def shear(quick: bool) -> Iterator[Case]:
     all_seeds = ((1,), SEEDS, SEEDS if quick else MANY)
     for points, sizes, seeds in zip(BETWEEN, all_rows, all_seeds, strict=True):
         for drive, rows, seed in product(DRIVES, sizes, seeds):
-            yield ShearFlow(drive=drive, points=points, rows=rows, seed=seed)
+            yield ShearFlow(flow=drive, points=points, rows=rows, seed=seed)
 
 
 def layers(quick: bool) -> Iterator[Case]:
@@ -132,8 +130,8 @@ def entropy(quick: bool) -> Iterator[Case]:
     ways = (*product(WAYS, sets), *product(FLOWS, sets[:2]))
     for (way, (make, kind)), (state, sizes, seeds) in product(ways, states):
         for n, seed in product(sizes, seeds[:1] if way in FLOWS else seeds):
-            yield Entropy(way=way, make=make, disorder=DISORDERS[kind], counts=(n, n), h=2.5, state=state,
-                          seed=seed)
+            yield Entropy(transport=way, maker=make, points=DISORDERS[kind], counts=(n, n), h=2.5,
+                          state=state, seed=seed)
 
 
 def makers(quick: bool) -> Iterator[Case]:
@@ -141,9 +139,9 @@ def makers(quick: bool) -> Iterator[Case]:
     cells, seeds = ((8, 12, 16), (1,)) if quick else ((16, 32, 48), SEEDS[:2])
     for (name, (make, kind)), (points, disorder), n in product(TODAY.items(), SETS.items(), cells):
         for seed in seeds[:1] if points in ("lattice", "hexagonal", "relaxed") else seeds:
-            yield MakerErrors(maker=name, make=make, kind=kind, disorder=disorder, cells=n, seed=seed)
+            yield MakerErrors(maker=name, make=make, kind=kind, points=disorder, cells=n, seed=seed)
     for name, (make, kind) in () if quick else TODAY.items():       # without seeds three sizes tell no order
-        yield MakerErrors(maker=name, make=make, kind=kind, disorder=SETS["lattice"], cells=24)
+        yield MakerErrors(maker=name, make=make, kind=kind, points=SETS["lattice"], cells=24)
 
 
 def wall_heat(quick: bool) -> Iterator[Case]:
@@ -152,4 +150,4 @@ def wall_heat(quick: bool) -> Iterator[Case]:
     for maker, (points, disorder), rows in product((*SMOOTH, *FACES), SETS.items(), sizes):
         rows = rows if maker != "closed faces" or quick else 8 + rows//4
         for seed in seeds[:1] if points in ("lattice", "hexagonal", "relaxed") else seeds:
-            yield WallHeat(maker=maker, disorder=disorder, rows=rows, seed=seed)
+            yield WallHeat(maker=maker, points=disorder, cells=rows, seed=seed)

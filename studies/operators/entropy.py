@@ -12,7 +12,6 @@ Of forces F along edges that heat as they work it is F.(v_j - v_i)(1/T_i + 1/T_j
 /T_i T_j, never negative. The continuum has sigma : grad v/T + kappa (grad T)^2/T^2 in each place.
 """
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
@@ -28,6 +27,7 @@ from particles.integral.exchange import Convection, Listing, Pressure
 from particles.integral.points import Points, lattice
 from particles.pairs import Faces, sweep
 from particles.threads import Threads
+from studies.kit.table import Row
 from studies.operators.equations import ALONG, ETA, KAPPA, Spectral, smooth_flow
 from studies.operators.scheme import PointSet
 
@@ -106,19 +106,18 @@ def continuum() -> float:
     return float(np.mean(friction/T + KAPPA*(exact.grad(T)**2).sum(axis=1)/T**2))
 
 
-@dataclass(frozen=True, kw_only=True)
-class Entropy(PointSet):
+class Entropy(PointSet, table="entropy", same=f"{PointSet.same} transport state"):
     """Of a smooth state, of random ones, or of the worst one that a descent from a random one finds."""
-    way: str
+    transport: str
     state: str
-    table = "entropy"
+
     cost = 3.0
 
-    def rows(self, points: Points, edges: Edges) -> Iterator[dict[str, Any]]:
-        made = producer(self.way, points, edges)
+    def rows_of(self, points: Points, edges: Edges) -> Iterator[Row]:
+        made = producer(self.transport, points, edges)
         every, size = np.array([made(state) for state in self.states(made, points)]).swapaxes(0, 1)
         sums = every.sum(axis=1)
-        yield {"transport": self.way, "state": self.state, "cells": self.counts[0],
+        yield {"cells": self.counts[0],
                "total": sums[0]/continuum() if self.state == "smooth" else np.nan,
                "least": (sums/size.sum(axis=1)).min(), "negative": np.mean(every < -ROUNDING*size)}
 

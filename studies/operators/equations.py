@@ -1,7 +1,6 @@
 """Terms on lattices against exact derivatives, and sums read literally    [RR98 Eqs 10-19, 21, 26-38, 51]"""
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
-from pathlib import Path
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -13,7 +12,8 @@ from particles.integral.edge_makers import renormalised
 from particles.integral.edges import Edges
 from particles.integral.points import lattice
 from particles.weights import Lucy, WendlandC2
-from studies.kit.case import Case, Outcome, Report
+from studies.kit.case import Case, Report
+from studies.kit.table import Row
 from studies.operators.weights import weight_of
 
 ETA, ZETA, KAPPA = 0.02, 0.01, 0.03
@@ -103,32 +103,28 @@ def frictions(dih: Dih, flow: Flow, exact: Spectral) -> Terms:
         yield f"friction, {name}", transported(fluid, flow)[1:-1].T, exact.div(stress)
 
 
-@dataclass(frozen=True, kw_only=True)
-class EquationErrors(Case):
+class EquationErrors(Case, table="equations", same="d weight h cells"):
     """All terms for one smooth flow on a lattice of cells^d points, h in spacings; those of Eq. 51 in 2D.
 
     error : relative rms. ratio : projection of the discrete field on the exact one.
     """
     d: int
-    kind: Any
+    weight: Any
     h: float
     cells: int
 
-    def run(self, report: Report, folder: Path) -> Outcome:
+    def measure(self, report: Report) -> Iterator[Row]:
         shape = (self.cells,)*self.d
         at, exact = lattice(shape, 1/self.cells), Spectral(shape)
-        edges = renormalised(at, weight_of(self.kind, self.h/self.cells, self.d))
+        edges = renormalised(at, weight_of(self.weight, self.h/self.cells, self.d))
         dih = Dih(edges=edges, eos=VanDerWaals(), law=CHANGING, zeta=ZETA, transport=PRINTED)
         flow = dih.flow(dih.state(*smooth_flow(at.x)))
         pairs = [*terms(dih, flow, exact)]
         if self.d == 2:
             pairs += frictions(dih, flow, exact)
-        key = {"d": self.d, "weight": self.kind.__name__, "h": self.h, "cells": self.cells}
-        rows = []
         for name, discrete, true in pairs:
             error = np.linalg.norm(discrete - true)/np.linalg.norm(true)
-            rows.append(key | {"operator": name, "error": error, "ratio": ratio(discrete, true)})
-        return Outcome({"equations": rows})
+            yield {"operator": name, "error": error, "ratio": ratio(discrete, true)}
 
 
 def ratio(literal: np.ndarray, true: np.ndarray) -> float:
@@ -139,14 +135,13 @@ def ratio(literal: np.ndarray, true: np.ndarray) -> float:
 # --- sums read literally ------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, kw_only=True)
-class Arithmetic(Case):
+class Arithmetic(Case, table="numbers"):
     """Single numbers without parameters. numbers : makes them, by name."""
     numbers: Callable[[], dict[str, float]]
 
-    def run(self, report: Report, folder: Path) -> Outcome:
-        rows = [{"quantity": name, "value": value} for name, value in self.numbers().items()]
-        return Outcome({"numbers": rows})
+    def measure(self, report: Report) -> Iterator[Row]:
+        for name, value in self.numbers().items():
+            yield {"quantity": name, "value": value}
 
 
 def brackets(edges: Edges) -> Sums:

@@ -3,26 +3,32 @@
 Smooth particles are asked as they run: pressures P push by -momentum(P), uniform ones heat by -P gradient(v),
 heat flows by laplacian(T): the areas are those of `particles.smooth` themselves. L_i is the gradient of x, 1
 where linear fields are exact; its deviator is that of P M, a stress which a fluid has not.
+
+Heat through a plate with odd images is that of a layer with Nu = 2, T_m - T = dT (s - sin(2 pi s)/2 pi), s =
+y/L: flat in the middle, without a second derivative at the plates, so that images, which have none, may be
+right to second order.
 """
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
 from functools import cache, partial
 from math import sqrt
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from continuum.fluid import ConstEta
+from continuum.scene import RayleighBenard
 from particles.integral.edge_makers import delaunay, exact
+from particles.integral.edges import between_plates
 from particles.integral.points import Points, of_positions, wrapped
+from particles.observe import PlateHeat
 from particles.pairs import sweep
 from particles.run import Plan, run
 from particles.weights import WendlandC2
 from studies.build import spam
 from studies.build.scenes import Tile
 from studies.build.setting import DISORDERS, Disorder
-from studies.kit.case import Case, Outcome, Report
+from studies.kit.case import Case, Report
+from studies.kit.table import Row
 
 #: vortices that carry points: their speed, turns, and viscosity over the height
 SPEED, TURNS, ETA = 0.2, 0.5, 0.01
@@ -101,13 +107,10 @@ def size(q: np.ndarray) -> float:
     return float(np.sqrt((q.reshape(-1, q.shape[-1])**2).sum(axis=0).mean()))
 
 
-@dataclass(frozen=True, kw_only=True)
-class MakerErrors(Case):
-    """One maker of MAKERS on points of SETS, waves as long as the box; no row where edges cannot be made."""
+class OnPoints(Case, same="maker points cells seed"):
+    """Something that a maker does on cells x cells points of SETS; no row where edges cannot be made."""
     maker: str
-    make: Callable
-    kind: Any
-    disorder: Disorder
+    points: Disorder
     cells: int
     seed: int = 1
 
@@ -115,14 +118,25 @@ class MakerErrors(Case):
     def cost(self) -> float:
         return 1e-3*self.cells**2
 
-    def run(self, report: Report, folder: Path) -> Outcome:
-        points = self.disorder.make((self.cells, self.cells), self.disorder.size, self.seed)
+    def measure(self, report: Report) -> Iterator[Row]:
+        points = self.points.make((self.cells, self.cells), self.points.size, self.seed)
         try:
-            row = errors(points, self.make(points, WendlandC2.of(h=3.0), self.kind))
+            yield self.row(points)
         except ArithmeticError:     # no such edges exist on these points: that is a result
-            return Outcome({})
-        key = {"maker": self.maker, "points": self.disorder.name, "cells": self.cells, "seed": self.seed}
-        return Outcome({"makers": [key | row]})
+            return
+
+    def row(self, points: Points) -> Row:
+        """Of a set of points."""
+        raise NotImplementedError
+
+
+class MakerErrors(OnPoints, table="makers"):
+    """Errors of one maker of MAKERS, waves as long as the box."""
+    make: Callable
+    kind: Any
+
+    def row(self, points: Points) -> Row:
+        return errors(points, self.make(points, WendlandC2.of(h=3.0), self.kind))
 
 
 def errors(points: Points, at: Operators) -> dict[str, float]:
@@ -139,3 +153,48 @@ def errors(points: Points, at: Operators) -> dict[str, float]:
     return {"closure": points.a*size(at.momentum(lambda x: 1 + 0*x[0])), "linear": size(L - eye)/sqrt(2),
             "deviator": size(L - eye*np.trace(L)/2)/sqrt(2),
             **dict(zip(("divergence", "gradient", "laplacian"), np.mean(waves, axis=0)))}
+
+
+# --- heat through plates ---------------------------------------------------------------------------------
+
+NU, WARMER = 2.0, 0.1
+#: what else there is pushes in another way and conducts as sph does
+SMOOTH = ("sph", "corrected", "delta-plus")
+FACES: dict[str, Callable] = {"closed faces": exact, "delaunay": delaunay}
+
+
+def layer(points: Points) -> tuple[RayleighBenard, np.ndarray]:
+    """The layer in the box of some points, and their temperatures."""
+    width, L = points.box
+    scene = RayleighBenard(ra=1e4, L=float(L), aspect=width/L, T_hot=1 + WARMER/2, T_cold=1 - WARMER/2)
+    s = points.x[:, 1]/L
+    return scene, scene.T_mean - scene.dT*(s - np.sin(2*np.pi*s)/(2*np.pi))
+
+
+def through_pairs(points: Points, maker: str) -> np.ndarray:
+    """Nu at both plates, of smooth particles at rest."""
+    scene, T = layer(points)
+    variant, fields = spam.TODAY[maker], (np.ones(len(T)), 0*points.x, T)
+    method = spam.method(scene, variant)
+    start = variant.transport.complete(spam.start(scene, x=points.x, fields=fields), 1.0, 1.0)
+    sums, state, _ = method.look(start)
+    sums.prepare(state)
+    return scene.L/scene.k/scene.dT*np.array([-side*PlateHeat(side)(sums, state) for side in (-1, 1)])
+
+
+def through_faces(points: Points, make: Callable) -> np.ndarray:
+    """The same over edges, kappa = 1."""
+    scene, T = layer(points)
+    _, beyond = between_plates(make, points.x, *points.box, WendlandC2.of(h=3.0))      # type: ignore[call-arg]
+    plate = np.array([scene.T_hot, scene.T_cold])[beyond.plate]
+    flux = beyond.k*(2*plate - T[beyond.parent] - T[beyond.i])*np.where(beyond.plate == 0, 1, -1)
+    return scene.L/scene.dT/scene.width*np.bincount(beyond.plate, flux, 2)
+
+
+class WallHeat(OnPoints, table="wall_heat"):
+    """Heat of one maker between plates, so many cells apart."""
+
+    def row(self, points: Points) -> Row:
+        through: Any = through_faces if self.maker in FACES else through_pairs
+        nu = through(points, FACES.get(self.maker, self.maker))
+        return {"wall": np.sqrt(np.mean((nu/NU - 1)**2))}

@@ -1,8 +1,6 @@
 """What brackets let grow, one kernel, the step of Euler, forces along edges    [RR98 Eqs 13, 34-40, 51]"""
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from math import prod
-from pathlib import Path
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
@@ -18,7 +16,8 @@ from particles.weights import WendlandC2
 from studies.build.fixed import SCHEMES, fluid
 from studies.build.setting import Disorder
 from studies.build.symbols import lattice_waves
-from studies.kit.case import Case, Outcome, Report
+from studies.kit.case import Case, Report
+from studies.kit.table import Row
 from studies.operators.weights import around, integral
 
 VISCOSITIES = (0.0, 0.1)    # rho c a
@@ -26,48 +25,43 @@ C2 = 2.0                    # gamma P/rho of the ideal gas at rho = T = 1
 NULL = 1e-6                 # rates that small belong to waves that the operators do not see
 
 
-@dataclass(frozen=True, kw_only=True)
-class PointSet(Case):
+class PointSet(Case, same="maker points d seed"):
     """What edges do on one set of points; no rows where the maker has none there.
 
-    make : of `particles.integral.edge_makers.MAKERS`. h : range of the weight, in spacings.
+    maker : of `particles.integral.edge_makers.MAKERS`. h : range of the weight, in spacings.
     """
-    make: Callable[[Points, Any], Edges]
-    disorder: Disorder
+    maker: Callable[[Points, Any], Edges]
+    points: Disorder
     counts: tuple[int, ...]
     h: float
     seed: int = 1
 
-    table: ClassVar[str]
     weight: ClassVar[Any] = WendlandC2
 
     @property
-    def columns(self) -> dict[str, Any]:
-        """What all rows have in common."""
-        return {"maker": self.make.__name__, "points": self.disorder.name, "d": len(self.counts),
-                "seed": self.seed}
+    def d(self) -> int:
+        return len(self.counts)
 
-    def run(self, report: Report, folder: Path) -> Outcome:
-        points = self.disorder.make(self.counts, self.disorder.size, self.seed)
+    def measure(self, report: Report) -> Iterator[Row]:
+        points = self.points.make(self.counts, self.points.size, self.seed)
         try:
-            edges = self.make(points, self.weight.of(h=self.h, d=len(self.counts)))
+            edges = self.maker(points, self.weight.of(h=self.h, d=self.d))
         except ArithmeticError:     # no such edges exist on these points: that is a result
-            return Outcome({})
-        return Outcome({self.table: [self.columns | row for row in self.rows(points, edges)]})
+            return
+        yield from self.rows_of(points, edges)
 
-    def rows(self, points: Points, edges: Edges) -> Iterator[dict[str, Any]]:
-        """What is measured."""
+    def rows_of(self, points: Points, edges: Edges) -> Iterator[Row]:
+        """What is measured on this set."""
         raise NotImplementedError
 
 
-class OneKernel(PointSet):
+class OneKernel(PointSet, table="one_kernel"):
     """Momentum that the pressure's kernel P(rho(r), T(r')) alone would not keep    [RR98 Eqs 13, 14]
 
     P = rho T, rho and T random: i gets S.P_ij/2, j gets S.P_ji/2. lost : over the sum of sizes.
     """
-    table = "one_kernel"
 
-    def rows(self, points: Points, edges: Edges) -> Iterator[dict[str, Any]]:
+    def rows_of(self, points: Points, edges: Edges) -> Iterator[Row]:
         rho, T = np.random.default_rng(self.seed).uniform(0.5, 1.5, (2, edges.n))
         i, j = edges.i, edges.j
         there = edges.S.T*rho[i]*T[j]
@@ -77,16 +71,15 @@ class OneKernel(PointSet):
         yield {"lost": lost.max()/size.max()}
 
 
-class SoundGrowth(PointSet):
+class SoundGrowth(PointSet, table="growth"):
     """Largest growth rate of sound at rest."""
-    table = "growth"
 
     @property
     def cost(self) -> float:
         size = prod(self.counts)*(len(self.counts) + 1)
         return 0.05 + 1e-8*size**3
 
-    def rows(self, points: Points, edges: Edges) -> Iterator[dict[str, Any]]:
+    def rows_of(self, points: Points, edges: Edges) -> Iterator[Row]:
         closure = np.abs(edges.closure/edges.V[:, None]).max()
         for eta in VISCOSITIES:
             rate = np.linalg.eigvals(sound(edges, eta)).real.max()
@@ -115,26 +108,22 @@ def euler_limit(eigenvalues: np.ndarray) -> float:
     return np.min(np.maximum(-2*seen.real/np.abs(seen)**2, 0), initial=np.inf)
 
 
-@dataclass(frozen=True, kw_only=True)
-class EulerLimit(Case):
+class EulerLimit(Case, table="euler"):
     """Largest stable step of Eq. 40 in the 2D gas, nested transport, for waves along an axis of a lattice."""
     gas: LinearGas
-    rows: int = 32
+    length: int = 32
 
-    def run(self, report: Report, folder: Path) -> Outcome:
+    def measure(self, report: Report) -> Iterator[Row]:
         eta, zeta, kappa = self.gas
         key = {**self.gas._asdict(), "predicted": (eta + zeta + kappa/2)/C2}
-        rows = []
-        for mode in range(1, self.rows//2 + 1):
-            k = 2*np.pi*mode/self.rows
+        for mode in range(1, self.length//2 + 1):
+            k = 2*np.pi*mode/self.length
             waves = lattice_waves(self.gas, WendlandC2.of(h=3.0), np.array([k, 0.0]), nested=True)
             rates = np.append(np.linalg.eigvals(waves.matrix), -waves.shear)
-            rows.append(key | {"mode": mode, "k": k, "limit": euler_limit(rates)})
-        return Outcome({"euler": rows})
+            yield key | {"mode": mode, "k": k, "limit": euler_limit(rates)}
 
 
-@dataclass(frozen=True, kw_only=True)
-class LayerGrowth(Case):
+class LayerGrowth(Case, table="nested_growth", same="h rows ra share"):
     """The fastest growing disturbance of a motionless layer between plates; `h` in spacings, rate in c/a.
 
     share : of transport along edges [Eq. 51], the rest is nested [Eqs 37, 38].
@@ -148,15 +137,14 @@ class LayerGrowth(Case):
     def cost(self) -> float:
         return 1e-9*(8*self.rows**2)**3 + 1
 
-    def run(self, report: Report, folder: Path) -> Outcome:
+    def measure(self, report: Report) -> Iterator[Row]:
         scene = RayleighBenard(ra=self.ra, L=float(self.rows), aspect=1.0)
         method = fluid(scene, SCHEMES["fixed-lattice"]._replace(h=self.h, share=self.share))
         y, c = method.x[:, 1], np.sqrt(2*scene.T_mean)
         state = method.state(1.0, np.zeros_like(method.x), scene.T(y))
         sums = method.start(len(y), Threads(1))
         growth = np.linalg.eigvals(jacobian(sums.rates, state)).real.max()
-        key = {"h": self.h, "rows": self.rows, "ra": self.ra, "share": self.share}
-        return Outcome({"nested_growth": [key | {"growth": growth/c}]})
+        yield {"growth": growth/c}
 
 
 class EdgeForces(NamedTuple):
@@ -172,27 +160,24 @@ def viscosities(d: int, M_A: float, M_B: float) -> tuple[float, float]:
     return eta, M_A/(d*(d + 2)) - (1 - 2/d)*eta
 
 
-@dataclass(frozen=True, kw_only=True)
-class EdgeViscosities(Case):
+class EdgeViscosities(Case, table="friction", same="d form h"):
     """Of forces A(r) e (e.v_ij) + B(r) v_ij [RR98 Eq. 51]: long waves on a lattice, and M_A and M_B."""
     d: int
-    forces: EdgeForces
+    form: EdgeForces
     h: float
 
-    def run(self, report: Report, folder: Path) -> Outcome:
+    def measure(self, report: Report) -> Iterator[Row]:
         weight = WendlandC2.of(h=self.h, d=self.d)
         eta, zeta = self.of_waves(weight)
-        moments = (self.second_moment(weight, *X) for X in (self.forces.A, self.forces.B))
+        moments = (self.second_moment(weight, *X) for X in (self.form.A, self.form.B))
         eta_predicted, zeta_predicted = viscosities(self.d, *moments)
-        return Outcome({"friction": [{
-            "d": self.d, "form": self.forces.name, "h": self.h, "eta": eta, "zeta": zeta,
-            "eta_predicted": eta_predicted, "zeta_predicted": zeta_predicted}]})
+        yield {"eta": eta, "zeta": zeta, "eta_predicted": eta_predicted, "zeta_predicted": zeta_predicted}
 
     def of_waves(self, weight: Any) -> tuple[float, float]:
         """eta and zeta of long waves along an axis of a lattice."""
         d, at = self.d, around(self.h, self.d)
         half, ex2 = at.number*W(weight, at.r)*at.r**2/2, (at.x/at.r)**2
-        A, B = (half*c*(at.r/self.h)**p for c, p in (self.forces.A, self.forces.B))
+        A, B = (half*c*(at.r/self.h)**p for c, p in (self.form.A, self.form.B))
         eta = A@(ex2*(1 - ex2))/(d - 1) + B@ex2
         return eta, A@ex2**2 + B@ex2 - 2*(1 - 1/d)*eta
 

@@ -8,12 +8,10 @@ Shear flows: RR98 leaves walls open. Here they are mirror images, friction seein
 slides with U, or rows of points that are held (`Stream`): triangles off a lattice see a kink in images.
 """
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from functools import partial
 from itertools import pairwise, product
 from math import ceil
-from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from scipy.linalg import logm
@@ -35,8 +33,9 @@ from particles.threads import Threads
 from particles.weights import Lucy
 from studies.build.setting import positions
 from studies.build.symbols import lattice_waves
-from studies.kit.case import Case, Outcome, Report
+from studies.kit.case import Case, Report
 from studies.kit.stats import Measured
+from studies.kit.table import Row
 from studies.operators.scheme import PointSet
 
 AMPLITUDE = 1e-5    # its square is the share of waves that feed back on the first; round-off over it is 1e-11
@@ -110,31 +109,30 @@ def measured(dih: Dih, x: np.ndarray, k: float, phases: tuple[float, ...]) -> di
             for name, value in last.items()}
 
 
-@dataclass(frozen=True, kw_only=True)
-class Decay(PointSet):
-    """Waves of one length along x, Lucy's weight, on counts of points along x and y."""
-    transport: NestedFluxes | Pairwise
+#: ways of transport by name
+WAYS = {"nested": NestedFluxes(), "pairwise": Pairwise()}
+
+
+class Decay(PointSet, table="waves", same="transport maker h points zeta wavelength seed"):
+    """Waves of one length along x, Lucy's weight, on counts of points along x and y. transport : of WAYS."""
+    transport: str
     zeta: float
 
-    table = "waves"
     weight = Lucy
+
+    @property
+    def wavelength(self) -> int:
+        return self.counts[0]
 
     @property
     def phases(self) -> tuple[float, ...]:
         """Of the waves: on a lattice all places are alike."""
-        return (0.0,) if self.disorder.name == "lattice" else (0.0, np.pi/2)
+        return (0.0,) if self.points.name == "lattice" else (0.0, np.pi/2)
 
-    @property
-    def columns(self) -> dict[str, Any]:
-        return {"transport": "nested" if isinstance(self.transport, NestedFluxes) else "pairwise",
-                "maker": self.make.__name__, "h": self.h, "points": self.disorder.name, "zeta": self.zeta,
-                "wavelength": self.counts[0], "seed": self.seed}
-
-    def rows(self, points: Points, edges: Edges) -> Iterator[dict[str, Any]]:
+    def rows_of(self, points: Points, edges: Edges) -> Iterator[Row]:
         """One a quantity."""
-        k = 2*np.pi/self.counts[0]
-        dih = Dih(edges=edges, eos=IdealGas(), law=ConstEta(ETA, KAPPA), zeta=self.zeta,
-                  transport=self.transport)
+        k, way = 2*np.pi/self.wavelength, WAYS[self.transport]
+        dih = Dih(edges=edges, eos=IdealGas(), law=ConstEta(ETA, KAPPA), zeta=self.zeta, transport=way)
         exact = quantities(continuum(LinearGas(ETA, self.zeta, KAPPA), k), k)
         for name, (value, err) in measured(dih, points.x, k, self.phases).items():
             yield {"quantity": name, "measured": value, "measured_err": err, "continuum": exact[name]}
@@ -186,27 +184,23 @@ BETWEEN: dict[str, Callable] = {
     "jittered-0.2, plates": between_rows}
 
 
-@dataclass(frozen=True, kw_only=True)
-class ShearFlow(Case):
+class ShearFlow(Case, table="shear", same="flow points rows seed"):
     """One flow from rest, `rows` spacings high, against its exact series; points : of BETWEEN."""
-    drive: Drive
+    flow: Drive
     points: str
     rows: int
     seed: int = 1
 
-    def run(self, report: Report, folder: Path) -> Outcome:
-        method = BETWEEN[self.points](self.drive, self.rows, self.seed)
+    def measure(self, report: Report) -> Iterator[Row]:
+        method = BETWEEN[self.points](self.flow, self.rows, self.seed)
         state = method.state(1.0, 0*method.x, np.ones(len(method.x)))
         interval = INTERVAL*self.rows**2/LAW.eta
         steps = ceil(interval/(OF_LIMIT*limit_of(method, state)))
-        key = {"flow": self.drive.name, "points": self.points, "rows": self.rows, "seed": self.seed}
-        last, rows = 0.0, []
+        last = 0.0
         for time in TIMES:
             plan = Plan(dt=interval/steps, steps=steps*round((time - last)/INTERVAL))
             state, last = run(method, state, plan).state, time
             report(time/TIMES[-1])
-            flow = method.fields(state)
-            error = flow.v[:, 0]/SPEED - self.drive.series(flow.x[:, 1]/self.rows + 0.5, time)
-            rms = np.sqrt(flow.V@error**2/flow.V.sum())
-            rows.append(key | {"time": time, "rms": rms, "largest": np.abs(error).max()})
-        return Outcome({"shear": rows})
+            at = method.fields(state)
+            error = at.v[:, 0]/SPEED - self.flow.series(at.x[:, 1]/self.rows + 0.5, time)
+            yield {"time": time, "rms": np.sqrt(at.V@error**2/at.V.sum()), "largest": np.abs(error).max()}

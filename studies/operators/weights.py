@@ -1,9 +1,7 @@
 """RR98's weights as integrals and as sums over lattices: moments, symbols, errors    [RR98 Eqs 1-6, 28-32]"""
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from functools import cache
 from math import isqrt
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -12,8 +10,9 @@ from scipy.special import j0, j1, spherical_jn
 
 from particles.integral.interpolants import Exponential, Gaussian, W, f, moment, reach, sphere, width
 from particles.weights import Lucy, Monaghan, WendlandC2, WendlandC4, WendlandC6
-from studies.kit.case import Case, Outcome, Report
+from studies.kit.case import Case, Report
 from studies.kit.stats import Measured
+from studies.kit.table import Row
 
 WAVES = (0.3, 1.0, 2.0, 4.0)        # k r0 at which the interpolant is held against the smoothed field
 MOMENTS = (1, 2, 3, 4)
@@ -153,17 +152,14 @@ def quantities(kind: Any, d: int) -> Iterator[tuple[str, Measured, float]]:
         yield "counted", Measured(counted(kind, d)), 1.0
 
 
-@dataclass(frozen=True, kw_only=True)
-class Continuum(Case):
+class Continuum(Case, table="continuum", same="weight d"):
     """A kind of weight in d dimensions, before anything is discretised."""
-    kind: Any
+    weight: Any
     d: int
 
-    def run(self, report: Report, folder: Path) -> Outcome:
-        key = {"weight": self.kind.__name__, "d": self.d}
-        rows = [key | {"quantity": name, "value": value, "value_err": err, "predicted": predicted}
-                for name, (value, err), predicted in quantities(self.kind, self.d)]
-        return Outcome({"continuum": rows})
+    def measure(self, report: Report) -> Iterator[Row]:
+        for name, (value, err), predicted in quantities(self.weight, self.d):
+            yield {"quantity": name, "value": value, "value_err": err, "predicted": predicted}
 
 
 def line_weight(weight: Any, d: int, r: np.ndarray) -> np.ndarray:
@@ -181,24 +177,18 @@ def gradient_symbol(w: np.ndarray, at: Around, k: float) -> float:
     return float(at.number@(w*at.x/at.r*np.sin(k*at.x)))/k
 
 
-@dataclass(frozen=True, kw_only=True)
-class LatticeSums(Case):
+class LatticeSums(Case, table="lattice", same="weight d r0"):
     """Discrete moments of a weight with range or width r0 (in spacings).
 
     Over the whole lattice (n = 1), and along one half line from a point (n = 0 to 4).
     """
-    kind: Any
+    weight: Any
     d: int
     r0: float
 
-    def run(self, report: Report, folder: Path) -> Outcome:
-        key = {"weight": self.kind.__name__, "d": self.d, "r0": self.r0}
-        weight = weight_of(self.kind, self.r0, self.d)
-        return Outcome({"lattice": [key | row for row in self.sums(weight)]})
-
-    def sums(self, weight: Any) -> Iterator[dict[str, Any]]:
-        """Columns of each moment."""
-        d, r0, at = self.d, self.r0, around(span(weight), self.d)
+    def measure(self, report: Report) -> Iterator[Row]:
+        weight, d, r0 = weight_of(self.weight, self.r0, self.d), self.d, self.r0
+        at = around(span(weight), d)
         yield {"how": "plain", "n": 1, "value": first_moment(W(weight, at.r), at), "predicted": d}
         printed = first_moment(line_weight(weight, d, at.r), at)
         yield {"how": "printed", "n": 1, "value": printed,
@@ -211,16 +201,14 @@ class LatticeSums(Case):
             yield {"how": "line", "n": n, "value": total/r0**(n - 1), "predicted": predicted}
 
 
-@dataclass(frozen=True, kw_only=True)
-class ExponentialWave(Case):
+class ExponentialWave(Case, table="exponential", same="wavelength r0"):
     """Error of the gradient of a plane wave, exponential weight, square lattice    [RR98 Eq. 31]"""
     r0: float
     wavelength: float
 
-    def run(self, report: Report, folder: Path) -> Outcome:
+    def measure(self, report: Report) -> Iterator[Row]:
         weight = Exponential(self.r0, 2)
         at = around(span(weight), 2)
         w = W(weight, at.r)
         symbol = gradient_symbol(w, at, 2*np.pi/self.wavelength)
-        errors = {"plain": abs(symbol - 1), "renormalised": abs(2*symbol/first_moment(w, at) - 1)}
-        return Outcome({"exponential": [{"d": 2, "wavelength": self.wavelength, "r0": self.r0, **errors}]})
+        yield {"d": 2, "plain": abs(symbol - 1), "renormalised": abs(2*symbol/first_moment(w, at) - 1)}

@@ -42,7 +42,7 @@ def chosen(text: str) -> list:
     exact = [variant for name, variant in known.items() if text in (name, variant.name)]
     some = exact or [variant for name, variant in known.items() if text.casefold() in name]
     if not some:
-        raise NoSuchCase(f"no method on points has {text!r} in its name; near to it are {near(text, known)}")
+        raise NoSuchCase(f"no method on points has {text!r} in its name; {near(text, known)}")
     return some
 
 
