@@ -11,7 +11,7 @@ from studies.kit.claim import Claim
 from studies.kit.stats import CannotTell, Measured
 from studies.kit.stats import over_seeds as mean_of
 from studies.kit.table import Tables
-from studies.lattices.makers import MAKERS
+from studies.lattices.push import MAKERS
 
 #: the layer of Fig. 4 that most is asked of
 GAS: dict[str, Any] = {"weight": "Lucy", "step": 1.0}
@@ -27,7 +27,7 @@ def frozen_at(criterion: str, **where) -> Value:
     """Pressure at which the flow freezes over that of a printed criterion."""
     def value(tables: Tables) -> Measured:
         runs = rows(tables, "freezing_limits", **where)
-        ratio, half = runs["measured"]/runs[criterion], runs["measured_err"]/runs[criterion]
+        ratio, half = runs.measured/runs[criterion], runs.measured_err/runs[criterion]
         scatter = mean_of(ratio).err if len(runs) > 1 else 0.0
         return Measured(ratio.mean(), max(scatter, half.max()))
     ratio = f"measured/{criterion} in freezing_limits"
@@ -59,10 +59,10 @@ def next_to_limit(side: str, step: float = 1.0) -> Value:
     def value(tables: Tables) -> Measured:
         limits = rows(tables, "freezing_limits", **gas)[["seed", "measured"]]
         runs = rows(tables, "freezing", **gas).dropna().merge(limits, on="seed").query(f"P {side} measured")
-        if runs["seed"].nunique() < len(limits):
+        if runs.seed.nunique() < len(limits):
             raise CannotTell(f"a search has no run with P {side} its limit")
-        distance = (runs["P"]/runs["measured"]).map(np.log).abs()
-        nearest = distance.groupby(runs["seed"]).idxmin()
+        distance = (runs.P/runs.measured).map(np.log).abs()
+        nearest = distance.groupby(runs.seed).idxmin()
         return mean_of(runs.loc[nearest, "lindemann"])
     value.__doc__ = (f"mean over seeds of lindemann in freezing at P {side} the limit, next to it" +
                      f", step {step:g}"*(step < 1))
