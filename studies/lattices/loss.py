@@ -32,7 +32,7 @@ from scipy.special import gamma
 from continuum.gas.solve import steady_on
 from continuum.linear import DEGREE, PlateKind, forms
 from continuum.scene import RayleighBenard
-from studies.build.spam import VARIANTS, Variant, images_odd, images_odd_own
+from studies.build.spam import VARIANTS, Variant
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.csvfile import read
 from studies.kit.fits import power_law
@@ -183,8 +183,8 @@ def slips(driven: pd.DataFrame) -> dict[str, Measured]:
 
 def length(slip: dict[str, Measured], kind: Variant) -> float:
     """Of a variant; nan where it was not measured."""
-    odd = kind.walls in (images_odd, images_odd_own)
-    name = "images_odd" if odd else "fixed_rows" if kind.walls.__name__ == "fixed_rows" else "images"
+    rows = kind.walls.__name__ == "fixed_rows"
+    name = "images_odd" if kind.moves else "fixed_rows" if rows else "images"
     return slip[name].value if name in slip else np.nan
 
 
@@ -219,12 +219,11 @@ def foretold(tables: Tables, known: dict[str, Law]) -> Iterator[Row]:
     usual = measured().query("eos == 'ideal' and transport == 'const-eta' and pr == 1 and "
                              f"sides == 'periodic' and resolution >= {LEAST} and variant not in @FAR")
     for _, one in usual[usual.variant.isin(VARIANTS) & usual.ra.isin(layers)].iterrows():
-        name, kind = one.variant, VARIANTS[one.variant]
-        if family(name) not in known:
+        name, kind, law = one.variant, VARIANTS[one.variant], known.get(family(one.variant))
+        if not law:
             continue
         b = length(slip, kind)
-        layer, left = layers[one.ra], 1 - kind.fraction
-        x, bulk, K, err = with_slip(layer, known[family(name)], left, b/one.resolution, one.ra)
+        x, bulk, K, err = with_slip(layers[one.ra], law, 1 - kind.fraction, b/one.resolution, one.ra)
         yield {"variant": name, "ra": one.ra, "rows": one.resolution, "x": x, "slip": b, "bulk": bulk,
                **with_errors(predicted=Measured(K, err), measured=Measured(1 + one.error, one.error_err))}
 
