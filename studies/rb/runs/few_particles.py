@@ -30,7 +30,6 @@ RANGE = 3.0
 R = Polynomial([0, 1])
 #: primitive vectors, as columns
 AXES = {"square": np.eye(2), "hexagonal": np.array([[1.0, 0.5], [0.0, np.sqrt(3)/2]])}
-SITES = (1, 2, 3, 4)        # particles on a site of a lattice
 
 
 class Printed(NamedTuple):
@@ -76,27 +75,25 @@ def density(weight: Printed, kind: str, per_site: float = 1.0) -> float:
     return float(per_site*weight(np.hypot(*lattice(kind, per_site))).sum())
 
 
-def shear_modulus(weight: Printed, kind: str, h: float, angle: float, step: float = 1e-3) -> float:
-    """Shear over bulk modulus of the ideal gas on a lattice turned by an angle, by differences of three sums.
+def largest_modulus(weight: Printed, kind: str, h: float = RANGE, step: float = 1e-3) -> float:
+    """Largest |G/B| of the ideal gas, shear over bulk modulus, sheared along an axis and at 45 degrees.
 
-    At constant area only the sum of the density changes: G = P d2(rho)/d(gamma)^2, B = rho c^2 = 2 P, gamma =
-    2 step.
+    By differences of three sums. At constant area only the sum of the density changes: G = P
+    d2(rho)/d(gamma)^2, B = rho c^2 = 2 P, gamma = 2 step.
     """
-    cos, sin = np.cos(angle), np.sin(angle)
-    turn = np.array([[cos, sin], [-sin, cos]])
-    stretches = (np.diag([np.exp(s), np.exp(-s)]) for s in (-step, 0.0, step))
-    sums = [weight(np.hypot(*(stretch@turn@lattice(kind))), h).sum() for stretch in stretches]
-    return float(np.diff(sums, 2)[0]/step**2/4/2)
-
-
-def largest_modulus(weight: Printed, kind: str, h: float = RANGE) -> float:
-    """Largest |G/B| of shears along an axis and at 45 degrees."""
-    return max(abs(shear_modulus(weight, kind, h, angle)) for angle in (0.0, np.pi/4))
+    moduli = []
+    for angle in (0.0, np.pi/4):
+        cos, sin = np.cos(angle), np.sin(angle)
+        turn = np.array([[cos, sin], [-sin, cos]])
+        stretches = (np.diag([np.exp(s), np.exp(-s)]) for s in (-step, 0.0, step))
+        sums = [weight(np.hypot(*(stretch@turn@lattice(kind))), h).sum() for stretch in stretches]
+        moduli.append(abs(np.diff(sums, 2)[0]/step**2/4/2))
+    return float(max(moduli))
 
 
 def least(weight: Printed, kind: str) -> tuple[float, int]:
     """Least density sum, and so least energy at any pressure, and how many particles a site have it."""
-    return min((density(weight, kind, sites), sites) for sites in SITES)
+    return min((density(weight, kind, sites), sites) for sites in (1, 2, 3, 4))
 
 
 # --- 36 particles ---------------------------------------------------------------------------------
