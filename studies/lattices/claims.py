@@ -1,5 +1,6 @@
 """What KHP95 say of smooth particles as lattices, and what keeps them from convergence."""
 from collections.abc import Iterator
+from functools import partial
 from itertools import product
 from typing import Any
 
@@ -21,7 +22,7 @@ STEPS = 1.0, 1/4, 1/16
 NO_PRESSURE, SPINODAL = "rho*(1 - rho/2)/2", "rho*(1 - rho/2)**2"
 
 
-def off(table: str, **where: Any) -> Value:
+def difference(table: str, **where: Any) -> Value:
     """Largest relative difference of what was measured from what lattice sums say."""
     return largest(table, "abs(measured/predicted - 1)", err="measured_err/abs(predicted)", **where)
 
@@ -80,24 +81,23 @@ def next_to_limit(side: str, step: float = 1.0) -> Value:
 TENTH = "a tenth is asked of predicted limits"
 LATTICES = (
     Claim(id="own-hard-growth", source="KHP95 Sec. III", at_most=0.01,
-          value=off("growth"),
+          value=difference("growth"),
           statement="lattices that are not stable melt as lattice sums say: largest relative difference of "
                     "growth rates, ideal gas and van der Waals",
           because="1 %: motions of up to a hundredth of a spacing are linear to that"),
     Claim(id="own-hard-pairing-onset", source="KHP95 Sec. VI, Fig. 10", at_most=0.1, because=TENTH,
-          value=off("onsets", parameter="h"),
+          value=difference("onsets", parameter="h"),
           statement="the range from which lattices are unstable, Monaghan's to pairing, is that of lattice "
                     "sums: largest relative difference"),
     Claim(id="own-hard-clumping-onset", source="KHP95 Sec. IV, Eq. 2", at_most=0.1, because=TENTH,
-          value=off("onsets", parameter="T"),
+          value=difference("onsets", parameter="T"),
           statement="the temperature below which van der Waals lattices clump is that of lattice sums: "
                     "largest relative difference"),
     Claim(id="own-hard-clumping-pressure", source="KHP95 Sec. IV, Eq. 2", expect=1, within=0.1,
           because=TENTH, value=at_onset(NO_PRESSURE),
           statement="particles clump from where the pressure is negative: temperature over that of P = 0, "
                     "density 1.2"),
-    Claim(id="own-hard-clumping-stable", source="KHP95 Sec. IV, Eq. 2", at_most=1,
-          value=at_onset(SPINODAL),
+    Claim(id="own-hard-clumping-stable", source="KHP95 Sec. IV, Eq. 2", at_most=1, value=at_onset(SPINODAL),
           statement="particles clump only where the van der Waals fluid itself is unstable: temperature over "
                     "that of the spinodal, density 1.2",
           because="beyond 1 it is the particles that clump, not the fluid"),
@@ -176,11 +176,7 @@ DEBYE = (
 #: flows of the printed scheme that most is asked of
 VORTICES: dict[str, Any] = {"variant": "printed", "mode": "stirred", "thick": 1.0,
                             "U": 0.2, "corrected": False}
-def stress(**where: Any) -> Value:
-    """Of the pressure sum in vortices at 25 rows."""
-    return over_seeds("driven", "stress", err="0", rows=25, **VORTICES | where)
-
-
+STRESS_AT_25 = partial(over_seeds, "driven", "stress", err="0", rows=25)
 LEFT_OVER = "(excess + (1 - symbol)*friction)"
 FLOWS = "predicted > 0 and measured > 0.05"
 RATIO_ERR = "sqrt(predicted_err**2 + (predicted*measured_err/measured)**2)/measured"
@@ -197,7 +193,7 @@ STRESS = (
           because="10 %: friction of disordered particles is known to the few percent that one of a lattice "
                   "is off"),
     Claim(id="own-yield-corrected", after=TRIALS, source="Bonet & Lok 1999", at_most=0.1,
-          value=stress(corrected=True)/stress(),
+          value=STRESS_AT_25(**VORTICES | {"corrected": True})/STRESS_AT_25(**VORTICES),
           statement="P_i M_i^-1 in place of P_i takes that stress away: over that as printed, vortices, 25 "
                     "rows",
           because="a tenth: what takes nine tenths away is the cause"),
