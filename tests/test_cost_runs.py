@@ -8,9 +8,8 @@ from studies.build import variant
 from studies.cost import tables
 from studies.cost.cases import CONTESTS
 from studies.cost.derive import growth_laws
-from studies.cost.modes import SpectralRace
 from studies.cost.problem import HALVINGS, STRETCH, STRETCHES, WORTH, Problem, Result, best, climb, rms
-from studies.cost.race import Race, SolverRace
+from studies.cost.race import Race, SolverRace, SpectralRace
 from studies.cost.rolls import END, LATE, OFTEN, SETTLED, Followed, HeatedLayer
 from studies.cost.seconds import Flock, TwoThreads, per_step
 from studies.cost.tables import GRID, LATTICE, MAC, NEAREST, PYPDE, SPECTRAL, WIDE

@@ -12,19 +12,10 @@ from continuum.scene import RayleighBenard
 from studies.build.scenes import Tile
 from studies.build.spam import TODAY, VARIANTS, at_rest, scattered
 from studies.lattices.loss import Law, gain, laws, projected, roll, strained, thickness
-from studies.lattices.makers import MAKERS, StirredMaker, law
+from studies.lattices.makers import law
 from studies.lattices.makers import thickness as of_layer
-from studies.lattices.stirred import (
-    SHEARED,
-    STIRRED,
-    Corrected,
-    Stirred,
-    amplitude,
-    moments,
-    slip_length,
-    stresses,
-    symbol,
-)
+from studies.lattices.push import MAKERS, SHEARED, STIRRED, Corrected, moments, stresses
+from studies.lattices.stirred import Stirred, StirredMaker, amplitude, slip_length, symbol
 
 PRINTED = VARIANTS["printed"]
 

@@ -21,8 +21,7 @@ from studies.build.spam import OF_LIMIT
 from studies.cost import contestants as of
 from studies.cost import rolls
 from studies.cost.contestants import ExactFlow
-from studies.cost.modes import SpectralRace, solved
-from studies.cost.race import Entry, Race, SolverRace, by_pypde
+from studies.cost.race import Entry, Race, SolverRace, SpectralRace, by_pypde, solved
 from studies.cost.rolls import LOWER_RA, HeatedLayer
 from studies.cost.seconds import Flock, Resident, StepTime, TwoThreads, Web
 from studies.cost.tables import CARRIED, SPECTRAL

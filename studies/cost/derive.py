@@ -35,13 +35,11 @@ def errors(tables: Tables) -> dict[str, Rows]:
     rows: dict[str, Rows] = {}
     if "growth" in tables:
         rows["growth_laws"] = list(growth_laws(tables["growth"]))
-    if "errors" in tables and "runs" in tables:
-        steps = tables.get("steps", NOTHING)
-        points = over_seeds(tables["errors"], tables["runs"], steps)
-        points = pd.concat([points, pd.DataFrame(lammps())])
-        rows["points"] = points.to_dict("records")
-        rows["needed"] = list(needed(points))
-        rows["rivals"] = list(rivals(points))
+    if {"errors", "runs"} <= tables.keys():
+        ours = over_seeds(tables["errors"], tables["runs"], tables.get("steps", NOTHING))
+        points = pd.concat([ours, pd.DataFrame(lammps())])
+        rows |= {"points": points.to_dict("records"), "needed": list(needed(points)),
+                 "rivals": list(rivals(points))}
     return rows
 
 
@@ -49,9 +47,8 @@ def over_seeds(errors: pd.DataFrame, runs: pd.DataFrame, steps: pd.DataFrame) ->
     """Means, of resolutions at which no seed diverged. Their intervals hold the error of time."""
     diverged = errors.quantity.eq("diverged").groupby([errors[name] for name in RUNG]).transform("any")
     rows = with_steps(errors[~diverged], steps).merge(runs, on=A_RUN)
-    seconds = rows.share*rows.run_s + rows.setup_s
-    err = np.hypot(rows.share*rows.run_s_err, rows.setup_s_err)
-    rows = rows.assign(error=rows.error.abs(), cpu_s=seconds, cpu_s_err=err)
+    rows = rows.assign(error=rows.error.abs(), cpu_s=rows.share*rows.run_s + rows.setup_s,
+                       cpu_s_err=np.hypot(rows.share*rows.run_s_err, rows.setup_s_err))
     means = seed_means(rows, [*A_SERIES, "resolution"], MEANS)
     return pd.DataFrame(means, columns=list(POINTS.columns))
 
@@ -75,20 +72,18 @@ def lammps() -> Iterator[Row]:
     table = read(path)
     table = table[table["style"].isin(LAMMPS) & table.quantity.isin(["K", "seconds"])]
     for (style, rows), pair in groups(table, ["style", "rows"]):
-        of = {row["quantity"]: row for row in pair.to_dict("records")}
-        if len(of) == 2:
-            K, seconds = of["K"], of["seconds"]
+        if len(pair) == 2:
+            (_, K), (_, seconds) = pair.sort_values("quantity").iterrows()
+            error = Measured(K.value, K.err)/K.expected - 1
             yield {"scene": BOUSSINESQ, "quantity": "K", "method": LAMMPS[style], "resolution": rows,
                    "points": 2*rows**2, "seeds": 1, "setup_s": 0.0,
-                   **with_err(error=Measured(abs(K["value"]/K["expected"] - 1), K["err"]/K["expected"]),
-                              cpu_s=Measured(seconds["value"], seconds["err"]))}
+                   **with_err(error=abs(error), cpu_s=Measured(seconds.value, seconds.err))}
 
 
 def needed(points: pd.DataFrame) -> Iterator[Row]:
     """Every method at every level."""
     for (key, group), level in product(groups(points, A_SERIES), LEVELS):
-        names = dict(zip(A_SERIES, key))
-        yield names | {"level": level} | reached(group.sort_values("resolution"), level)
+        yield {**dict(zip(A_SERIES, key)), "level": level, **reached(group.sort_values("resolution"), level)}
 
 
 def reached(group: pd.DataFrame, level: float) -> Row:
@@ -115,14 +110,12 @@ def rivals(points: pd.DataFrame) -> Iterator[Row]:
     """Printed particles over the grid of each scene; none that are better than all grids."""
     for scene, quantity in FIELD.items():
         here = points.query("scene == @scene and quantity == @quantity").sort_values("error")
-        grids = here[here.method == GRID]
-        particles = here[here.method == LUCY]
+        grids, particles = (here[here.method == method] for method in (GRID, LUCY))
         if particles.error.min() >= grids.error.min():      # false where there are none of them
             row = particles.iloc[0]
-            number = over_rival(row, grids, "points")
-            seconds = over_rival(row, grids, "cpu_s")
-            key = {"scene": scene, "quantity": quantity, "rival": GRID, "error": row.error}
-            yield key | with_err(points=number, seconds=seconds)
+            number, seconds = (over_rival(row, grids, column) for column in ("points", "cpu_s"))
+            yield {"scene": scene, "quantity": quantity, "rival": GRID, "error": row.error,
+                   **with_err(points=number, seconds=seconds)}
 
 
 def over_rival(best: pd.Series, grids: pd.DataFrame, column: str) -> Measured:
@@ -139,11 +132,9 @@ def over_rival(best: pd.Series, grids: pd.DataFrame, column: str) -> Measured:
 
 def growth_laws(growth: pd.DataFrame) -> Iterator[Row]:
     """Exponents over the number of particles, and speed-ups by two threads."""
-    cpu = growth.query("clock == 'cpu'")
-    for method, group in groups(cpu, "method"):
+    for method, group in groups(growth.query("clock == 'cpu'"), "method"):
         if len(group) >= LEAST:
-            law = power_law(group.points, group.step_s)
-            yield growth_law(method, "exponent", group, law.slope)
+            yield growth_law(method, "exponent", group, power_law(group.points, group.step_s).slope)
     wall = growth.query("clock == 'wall'").sort_values("threads")
     for (method, _), group in groups(wall, ["method", "points"]):
         if list(group.threads) == [1, 2]:
@@ -153,5 +144,5 @@ def growth_laws(growth: pd.DataFrame) -> Iterator[Row]:
 
 def growth_law(method: str, what: str, group: pd.DataFrame, law: Measured) -> Row:
     """A row."""
-    sizes = {"least": group.points.min(), "most": group.points.max()}
-    return {"method": method, "what": what} | sizes | with_err(value=law)
+    return {"method": method, "what": what, "least": group.points.min(), "most": group.points.max(),
+            **with_err(value=law)}

@@ -5,7 +5,7 @@ from itertools import product
 
 from continuum.fluid import IdealGas, VanDerWaals
 from particles.weights import Lucy, Monaghan, Weight, WendlandC2, WendlandC4
-from studies.build.spam import VARIANTS, Variant
+from studies.build.spam import TODAY, VARIANTS, Variant
 from studies.kit.case import Case
 from studies.kit.table import Table
 from studies.lattices.crystals import LATTICES, Crystal, LatticeGrowth, Onset, Speed
@@ -13,8 +13,8 @@ from studies.lattices.debye import Debye
 from studies.lattices.frozen_flow import Fastest, Freezing
 from studies.lattices.loss import TABLES as LOSS
 from studies.lattices.loss import Thickened
-from studies.lattices.makers import cases as makers
-from studies.lattices.stirred import PLATES, SHEARED, Stirred
+from studies.lattices.push import MAKERS, PLATES, SHEARED
+from studies.lattices.stirred import Stirred, StirredMaker
 
 WEIGHTS: tuple[type[Weight], ...] = (Lucy, Monaghan, WendlandC2)
 HEXAGONAL = Crystal(lattice=LATTICES["hexagonal"], cells=(14, 8), weight=Lucy, h=3.0, eos=IdealGas())
@@ -46,9 +46,7 @@ def cases(size: str) -> list[Case]:
 
 def quick() -> Iterator[Case]:
     """A few of each kind."""
-    yield from list(growth())[::5]
-    yield from list(onsets())[::9]
-    yield from (*speeds(), *spectra())
+    yield from (*list(growth())[::5], *list(onsets())[::9], *speeds(), *spectra())
     for U, variant in product((0.05, 0.1, 0.2), ("printed", "less-static-50")):
         yield Stirred(variant=VARIANTS[variant], rows=25, U=U, time=3.0)
     yield Stirred(variant=VARIANTS["less-static-90"], mode=PLATES, rows=25, time=3.0)
@@ -57,10 +55,7 @@ def quick() -> Iterator[Case]:
 
 def paper() -> Iterator[Case]:
     """All seeds."""
-    yield from growth()
-    yield from onsets()
-    yield from freezing()
-    yield from (*speeds(), *spectra())
+    yield from (*growth(), *onsets(), *freezing(), *speeds(), *spectra())
     yield from (*stirred(), *aligned(), *ranges(), *(Thickened(ra=ra) for ra in RAYLEIGH), *makers())
 
 
@@ -85,10 +80,8 @@ def onsets() -> Iterator[Case]:
 
 def freezing() -> Iterator[Case]:
     """The gas of Fig. 4 with both weights; with shorter steps, too."""
-    for weight, seed in product((Lucy, Monaghan), SEEDS):
-        yield Freezing(weight=weight, seed=seed)
-    for step, seed in product((1/4, 1/16), SEEDS):
-        yield Freezing(weight=Lucy, step=step, seed=seed)
+    for (weight, step), seed in product(((Lucy, 1.0), (Monaghan, 1.0), (Lucy, 1/4), (Lucy, 1/16)), SEEDS):
+        yield Freezing(weight=weight, step=step, seed=seed)
     yield Fastest()
 
 
@@ -107,18 +100,15 @@ def spectra() -> Iterator[Case]:
 def stirred() -> Iterator[Stirred]:
     """Forces, rows, viscosities, pressures, steps, weights; corrected sums."""
     printed = VARIANTS["printed"]
-    for rows, U, seed in product((25, 50), (0.02, 0.05, 0.1, 0.2, 0.4), SEEDS):
-        if rows == 25 or seed < 3:
-            yield Stirred(variant=printed, rows=rows, U=U, seed=seed)
-    for rows, seed in ((50, 3), (100, 1), (100, 2)):
-        yield Stirred(variant=printed, rows=rows, seed=seed)
-    for thick, seed in product((0.4, 2.0, 4.0), SEEDS):
-        yield Stirred(variant=printed, rows=25, thick=thick, seed=seed)
-    for name, U, seed in product(PRESSURES, (0.1, 0.2), SEEDS[:2]):
+    forces, few = (0.02, 0.05, 0.1, 0.2, 0.4), (0.1, 0.2, 0.4)
+    for rows, U, seed in (*product((25,), forces, SEEDS), *product((50,), forces, SEEDS[:2]),
+                          (50, 0.2, 3), (100, 0.2, 1), (100, 0.2, 2)):
+        yield Stirred(variant=printed, rows=rows, U=U, seed=seed)
+    for name, U, seed in (*product(PRESSURES, (0.1, 0.2), SEEDS[:2]), *product(OTHERS, few, (1,))):
         yield Stirred(variant=VARIANTS[name], rows=50, U=U, seed=seed)
-    for name, U in product(OTHERS, (0.1, 0.2, 0.4)):
-        yield Stirred(variant=VARIANTS[name], rows=50, U=U)
     for seed in SEEDS:
+        for thick in (0.4, 2.0, 4.0):
+            yield Stirred(variant=printed, rows=25, thick=thick, seed=seed)
         yield Stirred(variant=VARIANTS["printed-half-step"], rows=25, seed=seed)
         yield Stirred(variant=printed, rows=25, seed=seed, corrected=True)
     yield Stirred(variant=printed, rows=50, corrected=True)
@@ -145,6 +135,12 @@ def ranges() -> Iterator[Stirred]:
             thin = growing(rows)._replace(fraction=0.9)
             yield Stirred(variant=thin, mode=PLATES, rows=rows, seed=seed, time=4.0)
     yield Stirred(variant=growing(200), rows=200, time=2.5)
+
+
+def makers() -> Iterator[StirredMaker]:
+    """Today's smooth particles, three forces each."""
+    for name, U in product(MAKERS, (0.1, 0.2, 0.4)):
+        yield StirredMaker(variant=TODAY[name], rows=25, U=U)
 
 
 def growing(rows: int) -> Variant:

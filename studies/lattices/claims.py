@@ -1,5 +1,6 @@
 """What KHP95 say of smooth particles as lattices, and what keeps them from convergence."""
 from collections.abc import Iterator
+from functools import partial
 from itertools import product
 from typing import Any
 
@@ -11,23 +12,31 @@ from studies.kit.claim import Claim
 from studies.kit.stats import CannotTell, Measured
 from studies.kit.stats import over_seeds as mean_of
 from studies.kit.table import Tables
-from studies.lattices.makers import MAKERS
+from studies.lattices.push import MAKERS
 
 #: the layer of Fig. 4 that most is asked of
 GAS: dict[str, Any] = {"weight": "Lucy", "step": 1.0}
 #: over that of other studies
 STEPS = 1.0, 1/4, 1/16
-#: relative difference of what was measured from what lattice sums say
-DIFFERENCE = "abs(measured/predicted - 1)"
 #: T of a van der Waals fluid at which P = 0, and at which (dP/drho)_T = 0    [KHP95, Eq. 2]
 NO_PRESSURE, SPINODAL = "rho*(1 - rho/2)/2", "rho*(1 - rho/2)**2"
+
+
+def difference(table: str, **where: Any) -> Value:
+    """Largest relative difference of what was measured from what lattice sums say."""
+    return largest(table, "abs(measured/predicted - 1)", err="measured_err/abs(predicted)", **where)
+
+
+def at_onset(T: str) -> Value:
+    """T below which a dense van der Waals fluid clumps over that of a formula."""
+    return largest("onsets", f"measured/({T})", err=f"measured_err/({T})", parameter="T", rho=1.2)
 
 
 def frozen_at(criterion: str, **where) -> Value:
     """Pressure at which the flow freezes over that of a printed criterion."""
     def value(tables: Tables) -> Measured:
         runs = rows(tables, "freezing_limits", **where)
-        ratio, half = runs["measured"]/runs[criterion], runs["measured_err"]/runs[criterion]
+        ratio, half = (runs[name]/runs[criterion] for name in ("measured", "measured_err"))
         scatter = mean_of(ratio).err if len(runs) > 1 else 0.0
         return Measured(ratio.mean(), max(scatter, half.max()))
     ratio = f"measured/{criterion} in freezing_limits"
@@ -59,10 +68,10 @@ def next_to_limit(side: str, step: float = 1.0) -> Value:
     def value(tables: Tables) -> Measured:
         limits = rows(tables, "freezing_limits", **gas)[["seed", "measured"]]
         runs = rows(tables, "freezing", **gas).dropna().merge(limits, on="seed").query(f"P {side} measured")
-        if runs["seed"].nunique() < len(limits):
+        if runs.seed.nunique() < len(limits):
             raise CannotTell(f"a search has no run with P {side} its limit")
-        distance = (runs["P"]/runs["measured"]).map(np.log).abs()
-        nearest = distance.groupby(runs["seed"]).idxmin()
+        distance = (runs.P/runs.measured).map(np.log).abs()
+        nearest = distance.groupby(runs.seed).idxmin()
         return mean_of(runs.loc[nearest, "lindemann"])
     value.__doc__ = (f"mean over seeds of lindemann in freezing at P {side} the limit, next to it" +
                      f", step {step:g}"*(step < 1))
@@ -72,27 +81,23 @@ def next_to_limit(side: str, step: float = 1.0) -> Value:
 TENTH = "a tenth is asked of predicted limits"
 LATTICES = (
     Claim(id="own-hard-growth", source="KHP95 Sec. III", at_most=0.01,
-          value=largest("growth", DIFFERENCE, err="measured_err/abs(predicted)"),
+          value=difference("growth"),
           statement="lattices that are not stable melt as lattice sums say: largest relative difference of "
                     "growth rates, ideal gas and van der Waals",
           because="1 %: motions of up to a hundredth of a spacing are linear to that"),
     Claim(id="own-hard-pairing-onset", source="KHP95 Sec. VI, Fig. 10", at_most=0.1, because=TENTH,
-          value=largest("onsets", DIFFERENCE, err="measured_err/abs(predicted)", parameter="h"),
+          value=difference("onsets", parameter="h"),
           statement="the range from which lattices are unstable, Monaghan's to pairing, is that of lattice "
                     "sums: largest relative difference"),
     Claim(id="own-hard-clumping-onset", source="KHP95 Sec. IV, Eq. 2", at_most=0.1, because=TENTH,
-          value=largest("onsets", DIFFERENCE, err="measured_err/abs(predicted)", parameter="T"),
+          value=difference("onsets", parameter="T"),
           statement="the temperature below which van der Waals lattices clump is that of lattice sums: "
                     "largest relative difference"),
     Claim(id="own-hard-clumping-pressure", source="KHP95 Sec. IV, Eq. 2", expect=1, within=0.1,
-          because=TENTH,
-          value=largest("onsets", f"measured/({NO_PRESSURE})", err=f"measured_err/({NO_PRESSURE})",
-                        parameter="T", rho=1.2),
+          because=TENTH, value=at_onset(NO_PRESSURE),
           statement="particles clump from where the pressure is negative: temperature over that of P = 0, "
                     "density 1.2"),
-    Claim(id="own-hard-clumping-stable", source="KHP95 Sec. IV, Eq. 2", at_most=1,
-          value=largest("onsets", f"measured/({SPINODAL})", err=f"measured_err/({SPINODAL})",
-                        parameter="T", rho=1.2),
+    Claim(id="own-hard-clumping-stable", source="KHP95 Sec. IV, Eq. 2", at_most=1, value=at_onset(SPINODAL),
           statement="particles clump only where the van der Waals fluid itself is unstable: temperature over "
                     "that of the spinodal, density 1.2",
           because="beyond 1 it is the particles that clump, not the fluid"),
@@ -117,34 +122,37 @@ def fluctuations(name: str, step: float) -> Iterator[Claim]:
 FASTEST = limit_of_rows("freezing_flow", "fastest", "rows")
 RULE = "a criterion from a rule of thumb is good to a factor of two at best"
 MELTING, BARRIER = "mv^2 > 2Pn^-2[w(0.9)-w(1)]", "mv^2 > 2Pn^-2 w(0)"
+USUAL = "Lucy, ideal gas, Ra 3000, v^2 of the grid"
+LINDEMANN = "convection freezes at the pressure of the Lindemann-like criterion"
+
+
+def frozen(name: str, value: Value, words: str, where: str = USUAL, printed: str = MELTING,
+           after: str = "") -> Claim:
+    """Of the pressure at which the flow freezes, over that of a printed criterion."""
+    return Claim(id=f"khp95-hard-freezing-{name}", source="KHP95 Sec. IV, Fig. 4", printed=printed,
+                 at_least=0.5, at_most=2, because=RULE, value=value, after=after,
+                 statement=f"{words}: measured over printed, {where}")
+
+
+LUCY = {step: frozen_at("melting", weight="Lucy", step=step) for step in STEPS}
 FREEZING = (
-    *(Claim(id=f"khp95-hard-freezing-{name}-{weight.lower()}",
-            source="KHP95 Sec. IV, Fig. 4", printed=printed,
-            at_least=0.5, at_most=2, because=RULE, value=frozen_at(name, weight=weight, step=1.0),
-            statement=f"convection freezes at the pressure of the {words}: measured over printed, {weight}, "
-                      "512 particles, ideal gas, Ra 3000, v^2 of the grid")
+    *(frozen(f"{name}-{weight.lower()}", frozen_at(name, weight=weight, step=1.0),
+             f"convection freezes at the pressure of the {words}",
+             f"{weight}, 512 particles, ideal gas, Ra 3000, v^2 of the grid", printed)
       for weight, (name, printed, words) in product(("Lucy", "Monaghan"), (
           ("melting", MELTING, "Lindemann-like criterion"), ("barrier", BARRIER, "largest potential")))),
-    *(Claim(id=f"khp95-hard-freezing-melting-{name}",
-            source="KHP95 Sec. IV, Fig. 4", printed=MELTING, at_least=0.5, at_most=2, because=RULE,
-            value=frozen_at("melting", weight="Lucy", step=step), after=after,
-            statement=f"with {words} of the step convection freezes at the pressure of the Lindemann-like "
-                      "criterion: measured over printed, Lucy, ideal gas, Ra 3000, v^2 of the grid")
-      for name, step, words, after in (
-          ("short", 1/4, "a quarter", ""), ("shortest", 1/16, "a sixteenth", "it fell with the step"))),
-    Claim(id="khp95-hard-freezing-melting-limit", source="KHP95 Sec. IV, Fig. 4", printed=MELTING,
-          at_least=0.5, at_most=2, value=frozen_without_step, because=RULE,
-          after="steps of 1, 1/4 and 1/16 had been seen to differ",
-          statement="with a step that vanishes convection freezes at the pressure of the Lindemann-like "
-                    "criterion: measured over printed, Lucy, ideal gas, Ra 3000, v^2 of the grid"),
-    *(Claim(id=f"khp95-hard-freezing-fastest-{name}", source="KHP95 Sec. IV, Fig. 4", printed=MELTING,
-            at_least=0.5, at_most=2, value=ratio/FASTEST, because=RULE,
-            after='the ratio with <v^2> had been seen, which is v^2 of the "typical" particle of the text',
-            statement=f"convection freezes at the pressure of the Lindemann-like criterion with v^2 of the "
-                      f"fastest point: measured over printed, Lucy, ideal gas, Ra 3000, {words}")
-      for name, words, ratio in (
-          ("lucy", "steps of the other studies", frozen_at("melting", weight="Lucy", step=1.0)),
-          ("shortest", "a sixteenth of the step", frozen_at("melting", weight="Lucy", step=1/16)),
+    *(frozen(f"melting-{name}", value, f"with {words} {LINDEMANN}", after=after)
+      for name, value, words, after in (
+        ("short", LUCY[1/4], "a quarter of the step", ""),
+        ("shortest", LUCY[1/16], "a sixteenth of the step", "it fell with the step"),
+        ("limit", frozen_without_step, "a step that vanishes",
+         "steps of 1, 1/4 and 1/16 had been seen to differ"))),
+    *(frozen(f"fastest-{name}", value/FASTEST, f"{LINDEMANN} with v^2 of the fastest point",
+             f"Lucy, ideal gas, Ra 3000, {words}",
+             after='the ratio with <v^2> had been seen, which is v^2 of the "typical" particle of the text')
+      for name, words, value in (
+          ("lucy", "steps of the other studies", LUCY[1.0]),
+          ("shortest", "a sixteenth of the step", LUCY[1/16]),
           ("limit", "a step that vanishes", frozen_without_step))),
     *(claim for name, step in (("", 1.0), ("-shortest", STEPS[-1])) for claim in fluctuations(name, step)),
 )
@@ -168,6 +176,7 @@ DEBYE = (
 #: flows of the printed scheme that most is asked of
 VORTICES: dict[str, Any] = {"variant": "printed", "mode": "stirred", "thick": 1.0,
                             "U": 0.2, "corrected": False}
+STRESS_AT_25 = partial(over_seeds, "driven", "stress", err="0", rows=25)
 LEFT_OVER = "(excess + (1 - symbol)*friction)"
 FLOWS = "predicted > 0 and measured > 0.05"
 RATIO_ERR = "sqrt(predicted_err**2 + (predicted*measured_err/measured)**2)/measured"
@@ -184,8 +193,7 @@ STRESS = (
           because="10 %: friction of disordered particles is known to the few percent that one of a lattice "
                   "is off"),
     Claim(id="own-yield-corrected", after=TRIALS, source="Bonet & Lok 1999", at_most=0.1,
-          value=over_seeds("driven", "stress", err="0", rows=25, **VORTICES | {"corrected": True})
-          / over_seeds("driven", "stress", err="0", rows=25, **VORTICES),
+          value=STRESS_AT_25(**VORTICES | {"corrected": True})/STRESS_AT_25(**VORTICES),
           statement="P_i M_i^-1 in place of P_i takes that stress away: over that as printed, vortices, 25 "
                     "rows",
           because="a tenth: what takes nine tenths away is the cause"),

@@ -20,9 +20,9 @@ def stress(driven: pd.DataFrame, laws: pd.DataFrame, foretold: pd.DataFrame) -> 
     runs = fitted(driven).query("law == 'printed'")
     C, q = map(float, laws.set_index("variant").loc["printed", ["C", "q"]])
     for number, (P, label) in enumerate(HELD.items()):
-        some = runs[np.isclose(runs["P"], P)]
-        left.plot(some["J"], some["tau"], **{**look(number), "linestyle": "none"}, label=f"$P$ {label}")
-    J = np.geomspace(runs["J"].min(), runs["J"].max(), 50)
+        some = runs[np.isclose(runs.P, P)]
+        left.plot(some.J, some.tau, **{**look(number), "linestyle": "none"}, label=f"$P$ {label}")
+    J = np.geomspace(runs.J.min(), runs.J.max(), 50)
     left.plot(J, projected(q)*C*J**q, color="grey", marker="", linewidth=0.9, label=f"$q$ = {q:.2f}")
     left.set(xscale="log", yscale="log", xlabel=r"friction $\eta\gamma/P$",
              ylabel="stress of the pressure sum / $P$")
@@ -35,9 +35,9 @@ def stress(driven: pd.DataFrame, laws: pd.DataFrame, foretold: pd.DataFrame) -> 
     middle.axhline(1, color="grey", linewidth=0.6)
     middle.set(xscale="log", xlabel="rows", ylabel="amplitude of vortices / exact")
     plain_ticks(middle, [25, 50, 100, 200])
-    for number, (kind, some) in enumerate(groups(foretold[foretold["variant"].map(shown)], "variant")):
-        errorbar(right, some["measured"], some["predicted"], some["predicted_err"], number=number,
-                 label=name_of("spam", kind), xerr=some["measured_err"])
+    for number, (kind, some) in enumerate(groups(foretold[foretold.variant.map(shown)], "variant")):
+        errorbar(right, some.measured, some.predicted, some.predicted_err, number=number,
+                 label=name_of("spam", kind), xerr=some.measured_err)
     right.axline((0, 0), slope=1, color="grey", linewidth=0.6)
     right.set(xlabel="K measured / grid", ylabel="K foretold / grid", xlim=(-0.05, 1.3), ylim=(-0.05, 1.3))
     for axes in (left, middle, right):
@@ -49,10 +49,10 @@ def stress(driven: pd.DataFrame, laws: pd.DataFrame, foretold: pd.DataFrame) -> 
 def series(driven: pd.DataFrame, name: str) -> pd.DataFrame:
     """Runs of vortices at one force."""
     some = driven.query("mode == 'stirred' and U == 0.2 and thick == 1")
-    wide = np.isclose(some["h"], 3*np.sqrt(some["rows"]/25))
-    kinds = {"printed": (some["variant"] == "printed") & ~some["corrected"],
-             "fixed": (some["variant"] == "wendland-c2") & (some["h"] == 3),
-             "joint": (some["variant"] == "wendland-c2") & wide, "corrected": some["corrected"]}
+    wide = np.isclose(some.h, 3*np.sqrt(some.rows/25))
+    kinds = {"printed": (some.variant == "printed") & ~some.corrected,
+             "fixed": (some.variant == "wendland-c2") & (some.h == 3),
+             "joint": (some.variant == "wendland-c2") & wide, "corrected": some.corrected}
     return some[kinds[name]]
 
 

@@ -32,7 +32,7 @@ from scipy.special import gamma
 from continuum.gas.solve import steady_on
 from continuum.linear import DEGREE, PlateKind, forms
 from continuum.scene import RayleighBenard
-from studies.build.spam import VARIANTS, Variant, images_odd, images_odd_own
+from studies.build.spam import VARIANTS, Variant
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.csvfile import read
 from studies.kit.fits import power_law
@@ -114,8 +114,8 @@ def projected(q: float) -> float:
 
 def family(name: str) -> str:
     """The variant whose law is also that of this one: only the part of the static pressure differs."""
-    kind = VARIANTS[name]
-    return next(other.name for other in VARIANTS.values() if lawful(other) == lawful(kind))
+    kind = lawful(VARIANTS[name])
+    return next(other.name for other in VARIANTS.values() if lawful(other) == kind)
 
 
 def lawful(kind: Variant) -> tuple:
@@ -125,12 +125,10 @@ def lawful(kind: Variant) -> tuple:
 
 def fitted(driven: pd.DataFrame) -> pd.DataFrame:
     """Runs that a law is fitted to, with J = eta gamma/P and stress over P, of stirred runs."""
-    usual = driven.query("mode == 'stirred' and not corrected and flow > 0.1")
-    steps = usual[usual["variant"].isin(VARIANTS)]
-    steps = steps[steps["h"] == [VARIANTS[name].h for name in steps["variant"]]]
-    steps = steps[~steps["variant"].isin(FAR)]
-    return steps.assign(law=steps["variant"].map(family), J=steps["friction"]/steps["P"],
-                        tau=steps["stress"]/steps["P"])
+    usual = driven.query("mode == 'stirred' and not corrected and flow > 0.1 and variant not in @FAR")
+    known = usual[usual.variant.isin(VARIANTS)]
+    known = known[known.h == [VARIANTS[name].h for name in known.variant]]
+    return known.assign(law=known.variant.map(family), J=known.friction/known.P, tau=known.stress/known.P)
 
 
 class Law(NamedTuple):
@@ -144,12 +142,11 @@ def laws(driven: pd.DataFrame) -> Iterator[Row]:
     """Of all families with three runs or more."""
     for name, runs in groups(fitted(driven), "law"):
         if len(runs) > 2:
-            fit = power_law(runs["J"], runs["tau"])
-            q, usual = fit.slope, fit.at(float(np.log(USUAL)))
-            C = float(np.exp(fit.intercept.value))/projected(q.value)
-            yield {"variant": name, "C": C, "C_err": C*fit.intercept.err, "q": q.value, "q_err": q.err,
-                   "scatter": float(np.sqrt(np.mean(fit.residuals**2))), "runs": len(runs),
-                   "spread": usual.err}
+            fit = power_law(runs.J, runs.tau)
+            C = np.exp(fit.intercept.value)/projected(fit.slope.value)
+            yield {"variant": name, **with_errors(C=Measured(C, C*fit.intercept.err), q=fit.slope),
+                   "scatter": np.sqrt(np.mean(fit.residuals**2)), "runs": len(runs),
+                   "spread": fit.at(np.log(USUAL)).err}
 
 
 # --- plates ---------------------------------------------------------------------------------------
@@ -181,13 +178,13 @@ def gain(b: float, ra: float) -> float:
 def slips(driven: pd.DataFrame) -> dict[str, Measured]:
     """Slip length in spacings by what is behind the plates; images that turn v, by definition none."""
     plates = driven.query("mode == 'plates' and h == 3")
-    return {walls: combine([(b, 0.0) for b in runs["slip"]]) for walls, runs in groups(plates, "walls")}
+    return {walls: combine([(b, 0.0) for b in runs.slip]) for walls, runs in groups(plates, "walls")}
 
 
 def length(slip: dict[str, Measured], kind: Variant) -> float:
     """Of a variant; nan where it was not measured."""
-    odd = kind.walls in (images_odd, images_odd_own)
-    name = "images_odd" if odd else "fixed_rows" if kind.walls.__name__ == "fixed_rows" else "images"
+    rows = kind.walls.__name__ == "fixed_rows"
+    name = "images_odd" if kind.moves else "fixed_rows" if rows else "images"
     return slip[name].value if name in slip else np.nan
 
 
@@ -201,32 +198,39 @@ def thickness(layer: pd.DataFrame, law: Law, left: float) -> tuple[float, float]
     """
     by = layer.pivot(index="thick", columns="q", values="share")
     share = np.exp([PchipInterpolator(by.columns, row)(law.q) for row in np.log(by.to_numpy())])
-    ke = layer.groupby("thick")["ke"].first()
     x = np.linspace(1, by.index[-1], 2001)
     asked = 1 + law.C*left**(1 - law.q)*PchipInterpolator(by.index, share)(x)
     settled = np.flatnonzero(x >= asked)
     if not len(settled):
         return np.nan, 0.0
     found = float(x[settled[0]])
-    return found, float(np.exp(PchipInterpolator(ke.index, np.log(ke/ke.iloc[0]))(found)))
+    return found, thicker(layer, found)
+
+
+def thicker(layer: pd.DataFrame, x: float) -> float:
+    """K of the layer x times as viscous over its own."""
+    ke = np.log(layer.groupby("thick").ke.first())
+    return float(np.exp(PchipInterpolator(ke.index, ke - ke.iloc[0])(x)))
 
 
 def foretold(tables: Tables, known: dict[str, Law]) -> Iterator[Row]:
     """K of what `results/rb` has, of laws and Ra that were run."""
     layers, slip = dict(groups(tables["thickened"], "ra")), slips(tables["driven"])
-    errors = read(RESULTS/"rb"/"errors.csv").query(
-        "method == 'spam' and energy == 'Kg' and eos == 'ideal' and transport == 'const-eta' and pr == 1 and "
-        f"sides == 'periodic' and resolution >= {LEAST}")
-    for one in errors.to_dict("records"):
-        name, ra, rows = one["variant"], one["ra"], one["resolution"]
-        if name not in VARIANTS or name in FAR or family(name) not in known or ra not in layers:
+    usual = measured().query("eos == 'ideal' and transport == 'const-eta' and pr == 1 and "
+                             f"sides == 'periodic' and resolution >= {LEAST} and variant not in @FAR")
+    for _, one in usual[usual.variant.isin(VARIANTS) & usual.ra.isin(layers)].iterrows():
+        name, kind, law = one.variant, VARIANTS[one.variant], known.get(family(one.variant))
+        if not law:
             continue
-        kind, law = VARIANTS[name], known[family(name)]
         b = length(slip, kind)
-        x, bulk, K, err = with_slip(layers[ra], law, 1 - kind.fraction, b/rows, ra)
-        measured = Measured(1 + one["error"], one["error_err"])
-        yield {"variant": name, "ra": ra, "rows": rows, "x": x, "slip": b, "bulk": bulk,
-               **with_errors(predicted=Measured(K, err), measured=measured)}
+        x, bulk, K, err = with_slip(layers[one.ra], law, 1 - kind.fraction, b/one.resolution, one.ra)
+        yield {"variant": name, "ra": one.ra, "rows": one.resolution, "x": x, "slip": b, "bulk": bulk,
+               **with_errors(predicted=Measured(K, err), measured=Measured(1 + one.error, one.error_err))}
+
+
+def measured() -> pd.DataFrame:
+    """Errors of Kg of smooth particles that the study rb has."""
+    return read(RESULTS/"rb"/"errors.csv").query("method == 'spam' and energy == 'Kg'")
 
 
 def with_slip(layer: pd.DataFrame, law: Law, left: float, b: float,

@@ -9,151 +9,33 @@ stress n eta k U d(x) is the amplitude. A run ends with A v(x), and with three m
 
 A fluid has none of these: M_i = sum_j V_j r_ji grad w is the unit matrix there, so that P M_i is a pressure.
 """
-from collections.abc import Callable
 from dataclasses import dataclass, fields
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from continuum.fluid import ConstEta
 from continuum.sides import Periodic
 from particles.limits import lattice_sums, step_limit
-from particles.pairs import entries
 from particles.run import Plan, Run, run
 from particles.smooth.spam import Spam
-from particles.smooth.sums import Direct, Nested
+from particles.smooth.sums import Direct
 from studies.build import spam
 from studies.build.scenes import Tile
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import mean, with_errors
+from studies.lattices.push import PLATES, PUSHED, STIRRED, Corrected, Driven, Mode, Push, PushAlong, stresses
 
 SETTLED = 1/3           # of a run, before means: three turns and more of the flow
 LOOKS = 10              # in the time that friction takes to slow a flow by e
 ETA = 0.01              # over L: viscosity of KHP95's gas at Ra 10 000
 CHANNEL = 25            # columns of flows along x: longer waves of an unstable shear flow find no room
-Flowing = Callable[[np.ndarray], np.ndarray]     # of phases k (x, y), (2, n)
-
-
-class Mode(NamedTuple):
-    """A flow v of wave number k = halves pi/L; its strain is n U k/2 times d = ((xx - yy)/2, xy)."""
-    name: str
-    v: Flowing
-    d: Flowing
-    n: int = 1
-    halves: int = 2
-    phase: float = 0.0
-
-
-def swirl(p: np.ndarray) -> np.ndarray:
-    """Taylor and Green's vortices, whose convection is a pressure."""
-    return np.array([np.sin(p[0])*np.cos(p[1]), -np.cos(p[0])*np.sin(p[1])])
-
-
-def stretch(p: np.ndarray) -> np.ndarray:
-    return np.array([np.cos(p[0])*np.cos(p[1]), 0*p[0]])
-
-
-def slide(p: np.ndarray) -> np.ndarray:
-    return np.array([np.sin(p[1]), 0*p[0]])
-
-
-def slope(p: np.ndarray) -> np.ndarray:
-    return np.array([0*p[0], np.cos(p[1])])
-
-
-STIRRED = Mode("stirred", swirl, stretch, n=2)
-SHEARED = Mode("sheared", slide, slope)
-PLATES = Mode("plates", slide, slope, halves=1, phase=np.pi/2)
 
 
 class Layer(Tile):
     """The same between plates that rest."""
     sides = Periodic()
-
-
-@dataclass(frozen=True, kw_only=True)
-class Driven(Spam):
-    """Smooth particles that a force drives in a mode, as large as holds a flow of amplitude 1 times U."""
-    mode: Mode
-    U: float
-
-    @property
-    def k(self) -> float:
-        return self.mode.halves*np.pi/self.box[1]
-
-    @property
-    def friction(self) -> float:
-        """Amplitude of the stress of friction in a flow of amplitude 1."""
-        return self.mode.n*self.law.eta*self.k
-
-    def v(self, state: np.ndarray) -> np.ndarray:
-        return self.mode.v(self.k*state[:2] + self.mode.phase)
-
-    def d(self, state: np.ndarray) -> np.ndarray:
-        return self.mode.d(self.k*state[:2] + self.mode.phase)
-
-
-class Push(Nested):
-    """Sums with the force; energies stay."""
-
-    def rates(self, state: np.ndarray, out: np.ndarray) -> None:
-        super().rates(state, out)
-        method = self.method
-        out[2:4] += method.friction*method.k*method.U*method.v(state)
-        out[4] = 0.0
-
-    def tensor(self) -> np.ndarray:
-        """(3, points): xx, xy, yy of what stands for P/rho^2 in the sum."""
-        P = self.less/self.around.rho**2
-        return np.array([P, 0*P, P])
-
-
-class PushAlong(Push, Direct):
-    """The same with friction along pairs."""
-    symbol = Direct.symbol
-    allocate, prepare, exchange = Direct.allocate, Direct.prepare, Direct.exchange
-
-
-class Corrected(Push):
-    """P_i M_i^-1 in place of P_i: the pressure sum of a lattice has no deviator, sheared or not."""
-
-    def tensor(self) -> np.ndarray:
-        xx, xy, yy = moments(self)
-        return self.less/self.around.rho**2/(xx*yy - xy**2)*np.array([yy, -xy, xx])
-
-    def exchange(self, less: np.ndarray) -> tuple[Any, np.ndarray]:
-        term, flux = super().exchange(less)
-        change = self.tensor() - super().tensor()
-        for name, part in zip(("xx", "xy", "yx", "yy"), change[[0, 1, 1, 2]]):
-            flux[name] += part
-        return term, flux
-
-
-def moments(sums: Nested) -> np.ndarray:
-    """M_i as (3, points): xx, xy, yy."""
-    around, pairs = sums.around, sums.around.pairs
-    row, entry = entries(pairs, np.arange(sums.n))
-    near = pairs.near[entry]
-    dx, dy = ((q[near] - q[row])/around.rho[near] for q in (around.x, around.y))
-    M = np.ones((3, len(around.x)))
-    for part, product in zip(M, (dx*pairs.wx[entry], dx*pairs.wy[entry], dy*pairs.wy[entry])):
-        part[:sums.n] = np.bincount(row, product, sums.n)
-    for _, parent, first, last in around.blocks:
-        M[:, first:last] = M[:, parent]
-    return M
-
-
-def stresses(sums: Any) -> np.ndarray:
-    """(2, n): (xx - yy)/2 and xy of the stress of the pressure sum, of each particle."""
-    around, pairs, n = sums.around, sums.around.pairs, sums.n
-    row, entry = entries(pairs, np.arange(n))
-    near, wx, wy = pairs.near[entry], pairs.wx[entry], pairs.wy[entry]
-    P = sums.tensor()
-    xx, xy, yy = P[:, row] + P[:, near]
-    fx, fy = xx*wx + xy*wy, xy*wx + yy*wy
-    dx, dy = (q[row] - q[near] for q in (around.x, around.y))
-    return np.array([np.bincount(row, q, n)/4 for q in (fx*dx - fy*dy, fx*dy + fy*dx)])
 
 
 def of_pressure(sums: Any, state: np.ndarray) -> float:
@@ -262,6 +144,18 @@ class Stirred(Case):
             "symbol": symbol(method), "slip": slip, "friction": method.friction*A.value,
             **with_errors(flow=A/self.U, excess=method.friction*(self.U - A), stress=stress,
                           kinetic=kinetic)}
+
+
+@dataclass(frozen=True, kw_only=True)
+class StirredMaker(Stirred):
+    """Vortices of today's smooth particles."""
+
+    @property
+    def pushed(self) -> type:
+        return PUSHED[self.variant.transport]
+
+    def row(self, method: Driven, done: Run) -> dict[str, Any]:
+        return {**super().row(method, done), "stress": np.nan, "stress_err": np.nan}
 
 
 def symbol(method: Driven) -> float:

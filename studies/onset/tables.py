@@ -60,24 +60,22 @@ DRAWS = 400
 
 def derive(tables: Tables) -> Rows:
     """All derived rows of the study."""
-    critical: list[Row] = []
-    limits: list[Row] = []
-    lines: list[Row] = []
+    critical, rows = list[Row](), dict[str, list[Row]]()
     if "growth_rates" in tables:
         critical += from_growth(tables["growth_rates"])
         critical += fine_grids(critical)
         critical += small_differences(critical)
     if "energies" in tables:
-        grids = tables["energies"].query("resolution < @inf")
-        limits += extrapolated_energies(grids)
-        lines += all_lines(pd.concat([grids, pd.DataFrame(limits, columns=grids.columns)]))
-        critical += [critical_row(line, line["ra_c"], line["err"]) for line in lines]
-    return {"energies": limits, "lines": lines, "critical_ra": critical}
+        rows = of_energies(tables["energies"].query("resolution < @inf"))
+        critical += [critical_row(line, line["ra_c"], line["err"]) for line in rows["lines"]]
+    return rows | {"critical_ra": critical}
 
 
-def chosen(rows: list[Row], such: str) -> pd.DataFrame:
-    """Rows of `critical_ra`, also where there are none."""
-    return pd.DataFrame(rows, columns=list(CRITICAL.columns)).query(such)
+def of_energies(grids: pd.DataFrame) -> dict[str, list[Row]]:
+    """Energies extrapolated, and lines through those of grids and through these."""
+    limits = list(extrapolated_energies(grids))
+    every = pd.concat([grids, pd.DataFrame(limits, columns=grids.columns)])
+    return {"energies": limits, "lines": list(all_lines(every))}
 
 
 def critical_row(at: Any, value: float, err: float) -> Row:
@@ -111,17 +109,12 @@ def several(frame: pd.DataFrame, by: str | list[str]) -> list[pd.DataFrame]:
 def from_growth(rates: pd.DataFrame) -> Iterator[Row]:
     """Ra where sigma crosses zero, for each grid and start."""
     rates = rates.query("method != 'linear'")
+    rates = rates.rename(columns={"err": "sigma_err"})
     for _, runs in rates.groupby([*BY, "way", "ke_start", "resolution"], dropna=False):
-        at, at_ra = runs.iloc[0], means(runs)
-        if len(at_ra) >= GRIDS and at_ra.sigma.min() < 0 < at_ra.sigma.max():
+        at, means = runs.iloc[0], pd.DataFrame(seed_means(runs, ["ra"], ["sigma"]))
+        if len(means) >= GRIDS and means.sigma.min() < 0 < means.sigma.max():
             zero = smooth_zero if at.way == "operator" else nearby_zero
-            yield critical_row(at, *zero(at_ra))
-
-
-def means(runs: pd.DataFrame) -> pd.DataFrame:
-    """Mean sigma over seeds at each Ra, and its error."""
-    runs = runs.rename(columns={"err": "sigma_err"})
-    return pd.DataFrame(seed_means(runs, ["ra"], ["sigma"]))
+            yield critical_row(at, *zero(means))
 
 
 def smooth_zero(rates: pd.DataFrame) -> Measured:
@@ -140,7 +133,7 @@ def interpolated(sigma: np.ndarray, ra: np.ndarray) -> float:
     for s, r in zip(sigma, ra):
         others = sigma[sigma != s]
         total += r*np.prod(-others/(s - others))
-    return float(total)
+    return total
 
 
 def nearby_zero(rates: pd.DataFrame) -> Measured:
@@ -172,27 +165,29 @@ def middle_crossing(ra: np.ndarray, sigma: np.ndarray) -> float:
 
 def fine_grids(critical: list[Row]) -> Iterator[Row]:
     """Limit of fine grids; errors of each grid's own are added."""
-    for grids in several(chosen(critical, "way == 'operator'"), BY):
-        value, err = fits.grid_limit(grids.resolution, grids.value)
-        at = dict(grids.iloc[-1]) | {"resolution": inf}
-        yield critical_row(at, value, err + 3*grids.err.max())
+    return limits(critical, "way == 'operator'", BY, "resolution", resolution=inf)
 
 
 def small_differences(critical: list[Row]) -> Iterator[Row]:
     """Limit dT -> 0 of the gas: even in dT, because turning the box upside down changes its sign alone."""
-    gas = chosen(critical, "resolution == inf and eos != ''").sort_values("dT")
-    for group in several(gas, ["method", "eos", "transport", "sides"]):
-        value, err = fits.grid_limit(1/group.dT, group.value)
-        at = dict(group.iloc[0]) | {"dT": 0.0}
-        yield critical_row(at, value, err + group.err.max())
+    by = ["method", "eos", "transport", "sides"]
+    return limits(critical, "resolution == inf and eos != ''", by, "1/dT", own=1, dT=0.0)
+
+
+def limits(critical: list[Row], such: str, by: list[str], size: str, own: int = 3,
+           **at: float) -> Iterator[Row]:
+    """Of such rows over a size; the largest error of their own is added so many times."""
+    rows = pd.DataFrame(critical, columns=list(CRITICAL.columns)).query(such)
+    for group in several(rows, by):
+        value, err = fits.grid_limit(np.asarray(group.eval(size)), group.value)
+        yield critical_row(dict(group.iloc[0]) | at, value, err + own*group.err.max())
 
 
 def extrapolated_energies(energies: pd.DataFrame) -> Iterator[Row]:
     """Ra and K at each share, over three grids or more with the same rolls."""
     for grids in several(energies, [*BY, "share"]):
         if grids.rolls.nunique() == 1:
-            ra, _ = fits.grid_limit(grids.resolution, grids.ra)
-            ke, _ = fits.grid_limit(grids.resolution, grids.ke)
+            ra, ke = (fits.grid_limit(grids.resolution, grids[name]).value for name in ("ra", "ke"))
             finest = grids.iloc[-1][list(ENERGIES.columns)]
             yield {**finest, "resolution": inf, "ra": ra, "ke": ke}
 

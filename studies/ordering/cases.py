@@ -49,26 +49,29 @@ def surface(waves: Mapping[str, Sequence[int]]) -> Iterator[Case]:
     others = (*product(("plain", "printed", "closed"), (2.0, 3.0)), ("exact", 3.0), ("delaunay", 2.0))
     for disorder, wavelengths in waves.items():
         ranges = (*H, *BETWEEN) if disorder == "lattice" else H
-        edges = [*(("renormalised", h) for h in ranges), *others]
-        places = [*product(edges, wavelengths)]
-        if WAVE in wavelengths:
-            places.append((("plain", 1.2), WAVE))           # where Eq. 45 does not hold
-        for edge, wavelength in places:
-            yield from on_points(runs.OperatorErrors, *edge, disorder, [wavelength])
+        for edge in (*product(("renormalised",), ranges), *others):
+            yield from on_points(runs.OperatorErrors, *edge, disorder, wavelengths)
+        if WAVE in wavelengths:     # where Eq. 45 does not hold
+            yield from on_points(runs.OperatorErrors, "plain", 1.2, disorder, [WAVE])
 
 
 def on_points(case: type[runs.OnPoints], maker: str, h: float, disorder: str,
               wavelengths: Sequence[int]) -> Iterator[runs.OnPoints]:
     """All seeds: points with disorder have several. Without a weight h = 0."""
-    for wavelength, seed in product(wavelengths, SEEDS if disorder != "lattice" else SEEDS[:1]):
+    for wavelength, seed in product(wavelengths, seeds_of(disorder)):
         yield case(make=MAKERS[maker], h=h, disorder=DISORDERS[disorder], wavelength=wavelength, seed=seed)
+
+
+def seeds_of(disorder: str) -> Sequence[int]:
+    """One lattice is as another."""
+    return SEEDS[:1] if disorder == "lattice" else SEEDS
 
 
 def forms(ranges: Sequence[float], kinds: Sequence[str]) -> Iterator[Case]:
     """Gradients as printed: all ranges at one wavelength, h = 3 a at all wavelengths."""
     for kind in kinds:
         places = {*product(ranges, [WAVE]), *product([3.0], WAVES[kind])}
-        for (h, wavelength), seed in product(sorted(places), SEEDS if kind != "lattice" else SEEDS[:1]):
+        for (h, wavelength), seed in product(sorted(places), seeds_of(kind)):
             yield runs.GradientForms(disorder=DISORDERS[kind], h=h, wavelength=wavelength, seed=seed)
 
 

@@ -53,7 +53,7 @@ def near_grid(tables: Tables) -> Measured:
     """share(rolls = 2 and |ke/K - 1| < 0.1) in convection, K of reference, plain and renormalised, r0 > a"""
     known = one("reference", "ke", flow="convection")(tables).value
     runs = rows(tables, "convection", f"{WIDTH}*h > 1", maker=("plain", "renormalised"), points=IRREGULAR)
-    near = (runs["rolls"] == 2) & ((runs["ke"]/known - 1).abs() < ROUGH)
+    near = (runs.rolls == 2) & ((runs.ke/known - 1).abs() < ROUGH)
     return Measured(float(near.mean()))
 
 

@@ -14,7 +14,7 @@ from particles.weights import Lucy
 from studies.kit.ask import one
 from studies.kit.csvfile import read
 from studies.kit.fits import crossing, power_law
-from studies.kit.stats import seed_means
+from studies.kit.stats import Measured, seed_means, with_errors
 from studies.kit.sweep import RESULTS
 from studies.kit.table import Row, Rows, Table, Tables
 from studies.ordering.runs import FORMS, RA
@@ -85,28 +85,24 @@ def slopes(rows: pd.DataFrame, key: Sequence[str], x: str, least: int) -> Iterat
     """d ln error/d ln x of each group with so many x."""
     for values, group in rows.groupby(list(key)):
         if group[x].nunique() >= least:
-            slope = power_law(group[x], group["error"]).slope
-            common = dict(zip(key, values, strict=True))
-            yield common | {"slope": slope.value, "slope_err": slope.err}
+            yield dict(zip(key, values)) | with_errors(slope=power_law(group[x], group.error).slope)
 
 
 def of_operators(rows: pd.DataFrame) -> dict[str, Any]:
     """Of gradients and Laplacians of waves: slopes over wavelengths, and over ranges from 2 spacings on."""
-    operators = ["gradient", "laplacian"]
+    operators, key = ["gradient", "laplacian"], list(SLOPES.key)
     means = list(seed_means(rows.dropna(subset="gradient"), MEANS.key, operators))
     errors = pd.DataFrame(means).melt(MEANS.key, operators, "operator", "error")
-    errors = errors.assign(ratio=errors["h"]/errors["wavelength"])
+    errors = at_fixed(errors.assign(ratio=errors.h/errors.wavelength), "wavelength")
+    floors = errors.groupby(key).error.min().rename("floor")
+    found = pd.DataFrame(slopes(errors, key, "ratio", WAVES)).join(floors, key)
+    return {"means": means, "slopes": found.to_dict("records")}
+
+
+def at_fixed(errors: pd.DataFrame, resolution: str) -> pd.DataFrame:
+    """Each row as one at a fixed h/a and, of wide ranges, as one at a fixed spacing."""
     wide = errors.query("h >= @WIDE")
-    finer = wave_slopes(errors.assign(fixed="h/a", at=errors["h"]))
-    wider = wave_slopes(wide.assign(fixed="a", at=wide["wavelength"]))
-    return {"means": means, "slopes": [*finer, *wider]}
-
-
-def wave_slopes(errors: pd.DataFrame) -> Iterator[Row]:
-    """Slopes in h/lambda with the least error of each."""
-    floors = errors.groupby(list(SLOPES.key))["error"].min()
-    for row in slopes(errors, SLOPES.key, "ratio", WAVES):
-        yield row | {"floor": floors[tuple(row[name] for name in SLOPES.key)]}
+    return pd.concat([errors.assign(fixed="h/a", at=errors.h), wide.assign(fixed="a", at=wide[resolution])])
 
 
 def of_brackets(rows: pd.DataFrame) -> dict[str, Any]:
@@ -114,37 +110,36 @@ def of_brackets(rows: pd.DataFrame) -> dict[str, Any]:
     errors = rows.melt(BRACKETS.key, FORMS, "form", "error")
     means = list(seed_means(errors, BRACKET_MEANS.key, ["error"]))
     series = pd.DataFrame(means).query("h == 3")
-    series = series.assign(ratio=1/series["wavelength"])
+    series = series.assign(ratio=1/series.wavelength)
     return {"bracket_means": means,
             "bracket_slopes": list(slopes(series, BRACKET_SLOPES.key, "ratio", RESOLUTIONS))}
 
 
 def of_flows(tables: Tables) -> dict[str, Any]:
     """Of vortices (errors of the velocity) and of convection."""
-    known, parts = reference(), []
+    ke, parts = reference(), []
     if "vortices" in tables:
         vortices = tables["vortices"].rename(columns={"wavelength": "resolution", "velocity": "error"})
         parts.append(vortices.assign(flow="taylor-green", error_err=0.0))
     if "convection" in tables:
-        parts.append(convection(tables["convection"], known["ke"]))
+        parts.append(convection(tables["convection"], ke.value))
     if not parts:
         return {}
     runs = pd.concat(parts, ignore_index=True)
     means = flow_means(runs)
-    return {"reference": [known], "flows": means.to_dict("records"),
+    return {"reference": [{"flow": "convection", **with_errors(ke=ke)}], "flows": means.to_dict("records"),
             "flow_slopes": list(flow_slopes(runs, means)), "cheapest": list(cheapest(means))}
 
 
-def reference() -> Row:
+def reference() -> Measured:
     """K of the grid of the study rb, extrapolated."""
-    ke = one("means", "ke", **GRID)(Tables({"means": read(RESULTS/"rb"/"means.csv")}))
-    return {"flow": "convection", "ke": ke.value, "ke_err": ke.err}
+    return one("means", "ke", **GRID)(Tables({"means": read(RESULTS/"rb"/"means.csv")}))
 
 
 def convection(rows: pd.DataFrame, ke: float) -> pd.DataFrame:
     """Errors of K, with what the last tenth of a run changed; none of a run that ends in other rolls."""
-    error = (rows["ke"]/ke - 1).where(rows["rolls"] == 2)
-    rows = rows.assign(flow="convection", error=error, error_err=rows["ke_err"]/ke)
+    error = (rows.ke/ke - 1).where(rows.rolls == 2)
+    rows = rows.assign(flow="convection", error=error, error_err=rows.ke_err/ke)
     return rows.rename(columns={"rows": "resolution"})
 
 
@@ -154,7 +149,7 @@ def flow_means(runs: pd.DataFrame) -> pd.DataFrame:
     errors = pd.DataFrame(there, columns=[*FLOW_POINT, "error", "error_err"])
     points = runs.groupby(FLOW_POINT, as_index=False)
     means = points.agg(seeds=("seed", "size"), known=("error", "count"), exchanges=("exchanges", "mean"))
-    means["lost"] = means["seeds"] - means.pop("known")
+    means["lost"] = means.seeds - means.pop("known")
     return means.merge(errors, on=FLOW_POINT, how="left")
 
 
@@ -162,31 +157,27 @@ def flow_slopes(runs: pd.DataFrame, means: pd.DataFrame) -> Iterator[Row]:
     """Over resolutions and over ranges; of points where no seed is lost and the error differs from zero."""
     sure = means.query("lost == 0 and abs(error) > error_err")
     runs = runs.merge(sure[FLOW_POINT], on=FLOW_POINT)
-    runs = runs.assign(spacing=1/runs["resolution"])
-    wide = runs.query("h >= @WIDE")
-    key = FLOW_SLOPES.key
-    yield from slopes(runs.assign(fixed="h/a", at=runs["h"]), key, "spacing", RESOLUTIONS)
-    yield from slopes(wide.assign(fixed="a", at=wide["resolution"]), key, "h", RESOLUTIONS)
+    runs = at_fixed(runs.assign(spacing=1/runs.resolution), "resolution")
+    for fixed, x in (("h/a", "spacing"), ("a", "h")):
+        yield from slopes(runs[runs.fixed == fixed], FLOW_SLOPES.key, x, RESOLUTIONS)
 
 
 def cheapest(means: pd.DataFrame) -> Iterator[Row]:
     """Where the error comes below 1 % and stays there."""
-    means = means.assign(error=means["error"].abs()).sort_values("resolution")
+    means = means.assign(error=means.error.abs()).sort_values("resolution")
     for values, group in means.groupby(list(CHEAPEST.key)):
-        key = dict(zip(CHEAPEST.key, values, strict=True))
-        yield key | needed(group) | {"finest": group["error"].iloc[-1]}
+        yield dict(zip(CHEAPEST.key, values)) | needed(group) | {"finest": group.error.iloc[-1]}
 
 
 def needed(group: pd.DataFrame) -> dict[str, float]:
     """Resolution and exchanges for 1 % in one series, errors without sign; none where 1 % was not reached."""
-    above = np.flatnonzero(~(group["error"] <= WANTED) | (group["lost"] > 0))
+    above = np.flatnonzero(~(group.error <= WANTED) | (group.lost > 0))
     if not len(above):
         first = group.iloc[0]
-        return {"needed": first["resolution"], "needed_err": np.nan, "exchanges": first["exchanges"],
-                "bound": 1}
+        return {"needed": first.resolution, "needed_err": np.nan, "exchanges": first.exchanges, "bound": 1}
     pair = group.iloc[above[-1]:above[-1] + 2]
-    if len(pair) < 2 or not np.isfinite(pair["error"].iloc[0]):
-        return {"needed": np.nan, "needed_err": np.nan, "exchanges": np.nan, "bound": 0}
+    if len(pair) < 2 or not np.isfinite(pair.error.iloc[0]):
+        return dict.fromkeys(("needed", "needed_err", "exchanges"), np.nan) | {"bound": 0}
     return at_level(pair) | {"bound": 0}
 
 

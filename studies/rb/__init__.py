@@ -49,16 +49,16 @@ def chosen(text: str) -> list:
 def beside(tried: Sequence[Any], here: Tables, others: Tables) -> Iterator[str]:
     """K of cases, then of others of their kind with the nearest rows, and the grid's; the largest first."""
     points = pd.DataFrame([one.point for one in tried])[[*SAME, "resolution"]].drop_duplicates()
-    points["resolution"] = points["resolution"].astype(float)
+    points["resolution"] = points.resolution.astype(float)
     known = means(others).merge(points, how="left", indicator="own").query("own == 'left_only'")
     limit = known.query("method == 'compressible' and variant == 'flux-form' and resolution == inf")
-    right = limit["ke_field"].max()
+    right = limit.ke_field.max()
     yield f"K of the flow at Ra {RA:g}, Pr 1, run now; +- : half of the 95 % interval; %: off the limit"
     yield from lines(means(here).merge(points, how="right"), right)
     yield "beside it, from the tables, the largest K first: its kin with the nearest rows, means over seeds;"
     yield "limit: the grid's K at infinitely many rows, which is the right one"
-    kin = known[known["method"].isin(points["method"]) & np.isfinite(known["resolution"])]
-    apart = (kin["resolution"] - points["resolution"].iloc[0]).abs()
+    kin = known[known.method.isin(points.method) & np.isfinite(known.resolution)]
+    apart = (kin.resolution - points.resolution.iloc[0]).abs()
     nearest = kin.loc[apart.sort_values(kind="stable").index].drop_duplicates(SAME)
     yield from lines(pd.concat([nearest, limit]), right)
 

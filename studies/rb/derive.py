@@ -8,7 +8,7 @@ import pandas as pd
 from studies.build.names import one_energy
 from studies.build.spam import variant_of
 from studies.kit import fits
-from studies.kit.stats import Measured, combine
+from studies.kit.stats import Measured, combine, with_errors
 from studies.kit.table import Rows, Tables
 from studies.rb.snapshots import field_errors, snapshots
 from studies.rb.tables import POINT, SCENE, STILL
@@ -49,7 +49,7 @@ def derive(tables: Tables) -> Rows:
 
 def finite(frame: pd.DataFrame) -> pd.DataFrame:
     """Rows that are not extrapolated."""
-    return frame[np.isfinite(frame["resolution"].astype(float))]
+    return frame[np.isfinite(frame.resolution.astype(float))]
 
 
 def extrapolated(runs: pd.DataFrame) -> Iterator[Row]:
@@ -58,21 +58,15 @@ def extrapolated(runs: pd.DataFrame) -> Iterator[Row]:
 
     Grids and lattices have no chance in them; of sets of points that differ each run counts by itself.
     """
-    settled = runs[runs.converged.astype(str) == "True"]
+    settled = runs[runs.converged.astype(str) == "True"].sort_values("resolution")
     series = settled[settled.method.isin([*GRIDS, "dih"]) | settled.variant.isin(CORRECTED)]
-    series = series.sort_values("resolution")
     for point, group in series.groupby(SERIES, dropna=False):
         if group.resolution.nunique() < 3 or group.rolls.nunique() > 1:
             continue
         limit = grid_limit if group.resolution.is_unique else line_limit
-        nu = limit(group, "nu")
-        row: Row = dict(zip(SERIES, point))
-        row |= {"resolution": np.inf, "seed": 0, "particles": 0}
-        row |= one_energy(*limit(group, "ke"))
-        row |= {"nu": nu.value, "nu_err": nu.err}
-        row |= dict(group[SAME].iloc[-1])
-        row |= {name: group[name].sum() for name in SPENT}
-        yield row
+        yield {**dict(zip(SERIES, point)), "resolution": np.inf, "seed": 0, "particles": 0,
+               **one_energy(*limit(group, "ke")), **with_errors(nu=limit(group, "nu")),
+               **group[SAME].iloc[-1], **group[SPENT].sum()}
 
 
 def grid_limit(group: pd.DataFrame, name: str) -> Measured:
@@ -90,11 +84,11 @@ def line_limit(group: pd.DataFrame, name: str) -> Measured:
     rows^2. One scatter stands for all that is left over, which three runs of one size tell badly. A lattice
     at rest has the third power, too: less it K of moving points falls as 1/rows^2, `own-rb-carried-lattice`.
     """
-    sizes, y = group.resolution.to_numpy(float), group[name].to_numpy(float)
-    powers, weight, finer = np.array([0, 2, 3]), sizes**2, sizes > sizes.min()
-    X = (1/sizes[:, None])**(powers if sizes.max() > COARSEST*sizes.min() else powers[:2])
-    limit = fits.linear(X, y, weight=weight, err=group[f"{name}_err"]).intercept
-    without, *_ = np.linalg.lstsq((weight[:, None]*X)[finer], (weight*y)[finer])[0]
+    sizes = group.resolution.to_numpy(float)
+    weight, finer, wide = sizes**2, sizes > sizes.min(), sizes.max() > COARSEST*sizes.min()
+    X = (1/sizes[:, None])**np.array([0, 2, 3] if wide else [0, 2])
+    limit = fits.linear(X, group[name], weight=weight, err=group[f"{name}_err"]).intercept
+    without, *_ = np.linalg.lstsq((weight[:, None]*X)[finer], (weight*group[name])[finer])[0]
     return limit + Measured(0.0, 2*(limit.value - without))
 
 
@@ -108,15 +102,12 @@ def over_seeds(runs: pd.DataFrame) -> Iterator[Row]:
     changes = step_changes(runs)
     for point, group in runs.groupby(POINT, dropna=False):
         row: Row = dict(zip(POINT, point))
-        rolls = group.rolls.mode().iloc[0]
-        same = group[group.rolls == rolls]
-        change = step_change(changes, row)
-        for name in ENERGIES:
+        same = group[group.rolls == group.rolls.mode().iloc[0]]
+        for name, change in step_change(changes, row).items():
             value, err = combine(list(zip(same[name], same[f"{name}_err"])))
-            row |= {name: value, f"{name}_err": np.hypot(err, 2*value*change[name])}
-        row |= {"particles": same.particles.iloc[0], "rolls": rolls}
-        row |= {"seeds": len(same), "mixed": len(group) - len(same)}
-        yield row | {"ke_fluctuation": same.ke_fluctuation.mean()}
+            row |= {name: value, f"{name}_err": np.hypot(err, 2*value*change)}
+        yield {**row, **same[["particles", "rolls"]].iloc[0], "seeds": len(same),
+               "mixed": len(group) - len(same), "ke_fluctuation": same.ke_fluctuation.mean()}
 
 
 def step_changes(runs: pd.DataFrame) -> pd.DataFrame:
@@ -137,14 +128,14 @@ def step_change(changes: pd.DataFrame, row: Row) -> pd.Series:
 
     Of several Ra of this fluid that of the same one, if it is there.
     """
+    if row["method"] != "spam":
+        return pd.Series(0.0, ENERGIES)
     known = row["variant"] if (changes.variant == row["variant"]).any() else "printed"
     coarser = changes[(changes.resolution <= row["resolution"]) & (changes.variant == known)]
     alike = coarser[(coarser.eos == row["eos"]) & (coarser.sides == row["sides"])]
     own = alike[(alike.resolution == alike.resolution.max()) & (alike.ra == row["ra"])]
-    chosen = next((some for some in (own, alike) if not some.empty), coarser)
-    if row["method"] != "spam" or chosen.empty:
-        return pd.Series(0.0, ENERGIES)
-    return chosen[ENERGIES].iloc[0]
+    nothing = pd.DataFrame(0.0, [0], ENERGIES)
+    return next(some for some in (own, alike, coarser, nothing) if len(some))[ENERGIES].iloc[0]
 
 
 def in_space(tables: Tables) -> Iterator[Row]:
@@ -157,14 +148,18 @@ def in_space(tables: Tables) -> Iterator[Row]:
         group = group.sort_values("resolution")
         if len(group) < 3 or np.ptp(group.across) > SAME_PATTERN:
             continue
-        row: Row = {**group.iloc[-1][["across", "oblique", "converged"]], **dict(zip(by, key))}
-        for name in ("ke", "nu"):
-            *_, before, value = group[name]
-            limit = (fits.grid_limit(group.resolution, group[name]) if key[0] == "dih"
-                     else Measured(value, abs(value - before)))
-            limit += Measured(0.0, 2*group[f"{name}_err"].max())
-            row |= {name: limit.value, f"{name}_err": limit.err}
-        yield row | {"resolution": np.inf, "particles": 0}
+        row: Row = dict(zip(by, key))
+        limits = {name: space_limit(row["method"], group, name) for name in ("ke", "nu")}
+        yield {**group.iloc[-1][["across", "oblique", "converged"]], **row, **with_errors(**limits),
+               "resolution": np.inf, "particles": 0}
+
+
+def space_limit(method: str, group: pd.DataFrame, name: str) -> Measured:
+    """Of one number; its error has a part of the values' own."""
+    *_, before, value = group[name]
+    limit = (fits.grid_limit(group.resolution, group[name]) if method == "dih"
+             else Measured(value, abs(value - before)))
+    return limit + Measured(0.0, 2*group[f"{name}_err"].max())
 
 
 def errors(runs: pd.DataFrame, means: pd.DataFrame, tables: Tables) -> pd.DataFrame:
@@ -192,12 +187,11 @@ def errors(runs: pd.DataFrame, means: pd.DataFrame, tables: Tables) -> pd.DataFr
 def compared(rows: pd.DataFrame, energy: str, column: str, limit: str) -> pd.DataFrame:
     """Rows of the table `errors`: a column against the grid's limit, of which smoothing has `left` a part."""
     ke, ke_err = rows[column], rows[column + "_err"]
-    reference = rows.left*rows[limit + "_limit"]
-    reference_err = rows.left*rows[limit + "_err_limit"]
-    error_err = np.hypot(ke_err, ke/reference*reference_err)/reference
+    reference, reference_err = (rows.left*rows[limit + end] for end in ("_limit", "_err_limit"))
+    ratio = ke/reference
     return rows[[*POINT, "particles", "cpu_s"]].assign(
         energy=energy, ke=ke, ke_err=ke_err, reference=reference, reference_err=reference_err,
-        error=ke/reference - 1, error_err=error_err)
+        error=ratio - 1, error_err=np.hypot(ke_err, ratio*reference_err)/reference)
 
 
 def with_smoothing(rows: pd.DataFrame, tables: Tables) -> pd.DataFrame:

@@ -68,26 +68,26 @@ def errors(tables: Tables, **scene: Any) -> pd.DataFrame:
 def steady(tables: Tables, points: pd.DataFrame) -> pd.Series:
     """For each point whether all its runs have settled; a point without runs counts as settled."""
     runs = rows(tables, "kinetic_energy").dropna(subset="ke")
-    restless = runs[runs["converged"].astype(str) != "True"].set_index(POINT).index   # from CSV, or made
+    restless = runs[runs.converged.astype(str) != "True"].set_index(POINT).index   # from CSV, or made
     return pd.Series(~points.set_index(POINT).index.isin(restless), index=points.index)
 
 
 def diverged(tables: Tables, **scene: Any) -> pd.DataFrame:
     """Points of a method, particles if none is named, at which runs diverged: `lost` of `seeds`."""
     runs = rows(tables, "kinetic_energy", **{"method": SPAM["method"]} | scene)
-    by_point = runs.assign(lost=runs["ke"].isna()).groupby(POINT)["lost"]
+    by_point = runs.assign(lost=runs.ke.isna()).groupby(POINT)["lost"]
     return by_point.agg(lost="sum", seeds="size").reset_index().query("lost > 0")
 
 
 def finest(frame: pd.DataFrame) -> pd.DataFrame:
     """The rows of the highest resolution."""
-    return frame[frame["resolution"] == frame["resolution"].max()]
+    return frame[frame.resolution == frame.resolution.max()]
 
 
 def nearest(frame: pd.DataFrame, ra: float = 1e4) -> pd.DataFrame:
     """The rows of the Ra that is nearest to the one wanted (of two, the lower)."""
-    ras = np.sort(frame["ra"].unique().astype(float))
-    return frame[frame["ra"] == ras[np.argmin(np.abs(ras - ra))]] if len(ras) else frame
+    ras = np.sort(frame.ra.unique().astype(float))
+    return frame[frame.ra == ras[np.argmin(np.abs(ras - ra))]] if len(ras) else frame
 
 
 def cross_out(axes: Axes, x: pd.Series, y: pd.Series, steady: pd.Series) -> None:

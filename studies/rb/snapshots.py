@@ -25,13 +25,12 @@ Point = dict[str, Any]
 def snapshots(tables: Tables) -> Iterator[dict[str, Any]]:
     """One row for each point of `particles`."""
     for point, run in kept(tables, "particles"):
-        fluid = run["kind"] == "fluid"
-        ordered, height = pd.concat([run[fluid], run[~fluid]]), float(run["resolution"].iloc[0])
-        x, v = ordered[["x", "y"]].to_numpy(float)*height, ordered[["vx", "vy"]].to_numpy(float)
-        at = Snapshot(x, v, int(fluid.sum()), height)
-        T = run["T"][fluid].to_numpy(float)
+        run = run.sort_values("kind", key=lambda kind: kind != "fluid", kind="stable")
+        n, height = (run.kind == "fluid").sum(), run.resolution.iloc[0]
+        x, v, T = height*run[["x", "y"]].to_numpy(), run[["vx", "vy"]].to_numpy(), run["T"].to_numpy()
+        at = Snapshot(x, v, n, height)
         columns = with_errors(neighbours=at.neighbours, spacing=at.spacing, pairing=at.pairing,
-                              newtonian=newtonian(at, point, T))
+                              newtonian=newtonian(at, point, T[:n]))
         yield point | columns | {"occupancy": at.occupancy, "fastest": at.fastest}
 
 
@@ -39,7 +38,7 @@ def kept(tables: Tables, name: str) -> Iterator[tuple[Point, pd.DataFrame]]:
     """Points of a table, and the rows of the first seed that kept any."""
     frame = tables.get(name, pd.DataFrame(columns=[*POINT, "seed"]))
     for key, runs in frame.groupby(POINT):
-        yield dict(zip(POINT, key, strict=True)), runs[runs["seed"] == runs["seed"].min()]
+        yield dict(zip(POINT, key)), runs[runs.seed == runs.seed.min()]
 
 
 def newtonian(at: Snapshot, point: Point, T: np.ndarray) -> Measured:
@@ -56,10 +55,10 @@ def newtonian(at: Snapshot, point: Point, T: np.ndarray) -> Measured:
     gas = Spam(weight=Lucy.of(RANGE), eos=IdealGas(), law=ConstEta(eta, eta), walls=periodic(box[0]), box=box)
     molecules = replace(gas, eos=RHO_SQUARED, law=ConstEta(0.0, 0.0))
     x, v = at.x[:at.n].T, at.v[:at.n].T
-    real, simple = (rates(gas, np.array([*x, *v, T]))[2:4].T,
-                    rates(molecules, np.array([*x, *v, 1e3*T]))[2:4].T)
+    real, simple = (rates(method, np.array([*x, *v, e]))[2:4].T for method, e in ((gas, T),
+                                                                                   (molecules, 1e3*T)))
     layer = np.digitize(x[1], np.arange(-inner, inner + 1e-9, 2*RANGE))
-    inside = [layer == number for number in range(1, layer.max())]
+    inside = (layer == number for number in range(1, layer.max()))
     return combine([(correlation(real[some], simple[some]), 0.0) for some in inside])
 
 
@@ -84,38 +83,34 @@ def field_errors(tables: Tables, means: pd.DataFrame) -> Iterator[dict[str, Any]
             continue
         try:
             cells = rows(tables, "fields", **grid)
-            ours = rows(tables, "kinetic_energy", **point, seed=run["seed"].iloc[0])
+            ours = rows(tables, "kinetic_energy", **point, seed=run.seed.iloc[0])
             theirs = rows(tables, "means", **grid, resolution=inf)
         except NoRows:
             continue
-        finest = cells[cells["resolution"] == cells["resolution"].max()]
-        if {*ours["rolls"]} == {*theirs["rolls"]} and len(run) == len(finest):
+        finest = cells[cells.resolution == cells.resolution.max()]
+        if {*ours.rolls} == {*theirs.rolls} and len(run) == len(finest):
             yield point | with_errors(**errors_of(tables, point, fields(run), fields(finest)))
 
 
 def fields(run: pd.DataFrame) -> Fields:
     """rho, T, vx, vy (rows, columns) on the places of Fig. 12; warm fluid rises at column 0."""
-    names = ["rho", "T", "vx", "vy"]
-    places = run.pivot(index="y", columns="x", values=names)
-    return upright({name: places[name].to_numpy(float) for name in names})
+    places = run.pivot(index="y", columns="x")
+    return upright({name: places[name].to_numpy(float) for name in ("rho", "T", "vx", "vy")})
 
 
 def errors_of(tables: Tables, point: Point, ours: Fields, theirs: Fields) -> dict[str, Measured]:
     """Rms differences over places: of velocities over the grid's rms velocity, of others over its range."""
     relative = one_seed(tables, point)
-    span = {name: float(np.ptp(theirs[name])) for name in ("rho", "T")}
+    rho, T = (np.ptp(theirs[name]) for name in ("rho", "T"))
     speed = sqrt(np.mean(theirs["vx"]**2 + theirs["vy"]**2))
 
-    def error(names: Sequence[str], size: float, at: slice = EVERYWHERE) -> Measured:
+    def error(size: float, *names: str, at: slice = EVERYWHERE) -> Measured:
         of_seeds = Measured(0.0, relative/2*from_rest(ours, names))
         return (difference(ours, theirs, names, at) + of_seeds)/size
     return {
-        "velocity": error(["vx", "vy"], speed),
-        "T": error(["T"], span["T"]),
-        "rho": error(["rho"], span["rho"]),
-        "rho_plates": worse([error(["rho"], span["rho"], at) for at in (slice(1), slice(-1, None))]),
-        "rho_layer": layer_error(tables, point, theirs),
-    }
+        "velocity": error(speed, "vx", "vy"), "T": error(T, "T"), "rho": error(rho, "rho"),
+        "rho_plates": worse([error(rho, "rho", at=at) for at in (slice(1), slice(-1, None))]),
+        "rho_layer": layer_error(tables, point, theirs)}
 
 
 def difference(one: Fields, other: Fields, names: Sequence[str], at: slice) -> Measured:
@@ -148,33 +143,33 @@ def one_seed(tables: Tables, point: Point) -> float:
     step belongs. Not a number with one seed.
     """
     whole = rows(tables, "means", **point).iloc[0]
-    seeds = rows(tables, "kinetic_energy", **point)["ke_field"].dropna()
+    seeds = rows(tables, "kinetic_energy", **point).ke_field.dropna()
     if len(seeds) < 2:
         return nan
-    scatter = float(stdtrit(len(seeds) - 1, 0.975)*seeds.std(ddof=1))
-    return hypot(scatter, whole["ke_field_err"])/whole["ke_field"]
+    scatter = stdtrit(len(seeds) - 1, 0.975)*seeds.std()
+    return hypot(scatter, whole.ke_field_err)/whole.ke_field
 
 
 def layer_error(tables: Tables, point: Point, cells: Fields) -> Measured:
     """Largest |rho - rho_grid| within one spacing of a plate, horizontal mean, over the grid's range."""
     try:
-        layers = rows(tables, "walls", **point).dropna(subset="rho_layer").groupby("plate")["rho_layer"]
+        layers = rows(tables, "walls", **point).dropna(subset="rho_layer").groupby("plate").rho_layer
         apart = [abs(over_seeds(seeds - density_beside(cells, PLATES[str(plate)])))
                  for plate, seeds in layers]
     except CannotTell:
         return Measured(nan, nan)
     if not apart:           # points on a triangulation have a row on the plate
         return Measured(nan, nan)
-    return worse(apart)/float(np.ptp(cells["rho"]))
+    return worse(apart)/np.ptp(cells["rho"])
 
 
 def density_beside(at: Fields, side: int) -> float:
     """The grid's mean density half a spacing of 50 rows from a plate, by a line through two places."""
     mean = at["rho"].mean(axis=1)[::side]
     places = len(mean)*0.5/50 - 0.5       # from the first place, in distances of places
-    return float(mean[0] + places*(mean[1] - mean[0]))
+    return mean[0] + places*(mean[1] - mean[0])  # type: ignore[no-any-return]
 
 
 def worse(errors: list[Measured]) -> Measured:
     """The largest value with the largest error."""
-    return Measured(max(one.value for one in errors), max(one.err for one in errors))
+    return Measured(*map(max, zip(*errors)))

@@ -11,7 +11,7 @@ from studies.kit.claim import Claim
 from studies.kit.stats import CannotTell, Measured
 from studies.kit.table import Tables
 from studies.rb.claims import questions
-from studies.rb.claims.questions import ALIKE, diverged, history, mean, rolls_in, same_flow
+from studies.rb.claims.questions import ALIKE, diverged, history, mean, rolls_in, said, same_flow
 from studies.rb.tables import Point, besides, grid, particles
 
 STEADY, ROWS = particles(1e4), particles(1e4, variant="printed-fixed-rows")
@@ -40,7 +40,7 @@ def robust(tables: Tables) -> Measured:
     """Relative change of K between third and last quarter of the run at Ra 100 000; inf if it diverged"""
     point = particles(HIGHEST)
     if diverged(tables, point).any():
-        return Measured(inf, 0.0)
+        return Measured(inf)
     return per_seed(history(questions.drift, point))(tables)
 
 
@@ -52,12 +52,12 @@ def right_at_high(tables: Tables) -> Measured:
     """
     point = besides(grid(HIGHEST), "resolution")
     cells = rows(tables, "kinetic_energy", "resolution < inf", need=2, **point).sort_values("resolution")
-    coarse, fine = cells.iloc[-2], cells.iloc[-1]
-    if rolls_in(tables, particles(HIGHEST)) != int(fine["rolls"]):
+    coarse, fine = (cells.iloc[at] for at in (-2, -1))
+    if rolls_in(tables, particles(HIGHEST)) != fine.rolls:
         raise CannotTell("particles and grid have different numbers of rolls at Ra 100 000: another flow")
     seen = {"weight": "Lucy", "h": 3.0, "rows": 50, **besides(point, "variant")}
     left = one("smoothed", "ke_smoothed/ke", err="0", **seen)(tables)
-    reference = left*Measured(fine["ke"], hypot(fine["ke"] - coarse["ke"], fine["ke_err"]))
+    reference = left*Measured(fine.ke, hypot(fine.ke - coarse.ke, fine.ke_err))
     return abs(mean(particles(HIGHEST), "ke_field")(tables)/reference - 1)
 
 
@@ -69,9 +69,9 @@ def losses(variant: str) -> Value:
     def answer(tables: Tables) -> Measured:
         number = turns(tables)
         if number.value > 0:
-            turned = f"turned particles back, {number.value:.2g} times a particle and run"
-            raise CannotTell(f"the elastic wall {turned}; but a turn is no loss: a particle beyond the plate "
-                             "may come back by itself, and no run here goes without it")
+            raise CannotTell(f"the elastic wall turned particles back, {number.value:.2g} times a particle "
+                             "and run; but a turn is no loss: a particle beyond the plate may come back by "
+                             "itself, and no run here goes without it")
         return number
     return Value(answer, str(turns), turns.asks)
 
@@ -84,9 +84,9 @@ def carried(tables: Tables) -> Measured:
     fastest = sqrt(seen("fastest", ROWS)(tables).value)
     runs = rows(tables, "kinetic_energy", **ROWS)[["seed", "t_end"]]
     walls = rows(tables, "walls", **ROWS).merge(runs, on="seed")
-    impacts = 2*fastest*walls["reflections"]/(walls["t_end"]*2*WIDTH)
-    both = (walls["rho_layer"]*walls["T_layer"]).groupby(walls["seed"]).mean()
-    return stats.over_seeds(1 - impacts.groupby(walls["seed"]).first()/both)
+    impacts = 2*fastest*walls.reflections/(walls.t_end*2*WIDTH)
+    by_seed = walls.assign(impacts=impacts, P=walls.rho_layer*walls.T_layer).groupby("seed")
+    return stats.over_seeds(1 - by_seed.impacts.first()/by_seed.P.mean())
 
 
 FIELD = "against the grid's field as it is, not smoothed"
@@ -101,27 +101,22 @@ DENSITY = partial(Claim, source="KHP95 Sec. VI, Fig. 9", printed="good agreement
 APPROACH = partial(Claim, source="KHP95 Sec. VI, Fig. 8", printed=SEMI, at_most=0.05)
 PAIRS = partial(Claim, because="Lucy's single particles have 1.3, pairs 2 or more")
 CLAIMS = (
-    Claim(id="khp95-neighbours-range", source="KHP95 Sec. II", printed="20 to 30", at_least=20, at_most=30,
-          statement="bulk particles have 20 to 30 neighbours within 3 sigma: mean in a run at Ra 10 000",
-          value=seen("neighbours"), because="the printed ends"),
-    Claim(id="khp95-range-spacing", source="KHP95 Sec. II", printed="about three times",
-          **as_printed("range-spacing"),
-          statement="the range is about three nearest-neighbour distances: over the first peak of g(r), Ra "
-                    "10 000", value=RANGE/seen("spacing"), because='"about", one digit'),
-    VELOCITY(id="khp95-velocity-field-10000", headline=True, value=beside_grid("velocity"),
-             statement="velocity errors of the order of 5 % at Ra 10 000, place by place: rms difference of "
-                       "mean fields, rolls aligned, over rms velocity"),
-    VELOCITY(id="khp95-velocity-field-5000", value=beside_grid("velocity", 5e3),
-             statement="velocity errors of the order of 5 % at Ra 5000, place by place: rms difference of "
-                       "mean fields, rolls aligned, over rms velocity"),
-    Claim(id="khp95-within-percent", source="KHP95 Sec. VII", printed="a few percent", at_most=0.05,
-          headline=True, evidence="rb/convergence.png",
-          statement="results are within a few percent of converged solutions: velocities place by place, Ra "
-                    "10 000", value=beside_grid("velocity"), because=f"a few are five at most; {FIELD}"),
-    Claim(id="khp95-fig9-temperature", source="KHP95 Sec. VI, Fig. 9", printed="good agreement", at_most=0.05,
-          value=beside_grid("T"), because="no number is printed: a few percent", **AT_FIG9,
-          statement="temperatures of particles and grid agree at Ra 10 000: rms difference over the whole "
-                    "range"),
+    said("neighbours-range", "Sec. II", "20 to 30", seen("neighbours"),
+         "bulk particles have 20 to 30 neighbours within 3 sigma: mean in a run at Ra 10 000",
+         "the printed ends", at_least=20, at_most=30),
+    said("range-spacing", "Sec. II", "about three times", RANGE/seen("spacing"),
+         "the range is about three nearest-neighbour distances: over the first peak of g(r), Ra 10 000",
+         '"about", one digit', **as_printed("range-spacing")),
+    *(VELOCITY(id=f"khp95-velocity-field-{ra}", headline=ra == 10000, value=beside_grid("velocity", ra),
+               statement=f"velocity errors of the order of 5 % at Ra {words}, place by place: rms difference "
+                         "of mean fields, rolls aligned, over rms velocity")
+      for ra, words in ((10000, "10 000"), (5000, "5000"))),
+    said("within-percent", "Sec. VII", "a few percent", beside_grid("velocity"),
+         "results are within a few percent of converged solutions: velocities place by place, Ra 10 000",
+         f"a few are five at most; {FIELD}", at_most=0.05, headline=True, evidence="rb/convergence.png"),
+    said("fig9-temperature", "Sec. VI, Fig. 9", "good agreement", beside_grid("T"),
+         "temperatures of particles and grid agree at Ra 10 000: rms difference over the whole range",
+         "no number is printed: a few percent", **AT_FIG9, at_most=0.05),
     DENSITY(id="khp95-fig9-density", value=beside_grid("rho"), because=ONE_CONTOUR, **AT_FIG9,
             statement="densities of particles and grid agree at Ra 10 000: rms difference over the grid's "
                       "range"),
@@ -132,37 +127,32 @@ CLAIMS = (
             because=f"{ONE_CONTOUR}; counted, not smoothed",
             statement="as many particles lie along the plates as the grid's density asks for, Ra 10 000: "
                       "difference within one spacing of a plate, the worse of both, over the grid's range"),
-    APPROACH(id="khp95-approach", value=questions.approach(STEADY, CELLS, "ke_field"), **AT_FIG8,
-             because=f"a few are five at most; smoothing lowers K at the start; {LAG}",
-             statement="the approach to the steady state is described semiquantitatively, to a few percent: "
-                       "largest difference of K(t) over the steady K, energy of the field"),
-    APPROACH(id="khp95-approach-particles", value=questions.approach(STEADY, CELLS, "ke"),
-             because=f"a few are five at most; the jitter of the lattice at the start is in K, too; {LAG}",
-             statement="the approach to the steady state is described semiquantitatively, to a few percent: "
-                       "largest difference of K(t) over the steady K, energy of the particles"),
-    Claim(id="khp95-steady-time", source="KHP95 Fig. 8", printed="same approach", expect=1, within=0.2,
-          value=time_of_approach(), **AT_FIG8,
-          statement="particles need as long as the grid to be steady at Ra 10 000: ratio of times until K "
-                    "is within 5 %",
-          because="no number is printed: a fifth; a narrower band would time the noise"),
-    Claim(id="khp95-fluctuation-level", source="KHP95 Sec. VI", printed="about 1%", expect=0.01, within=0.01,
-          value=per_seed(history(questions.scatter, STEADY)),
-          statement="fluctuations disguise errors of less than 1 %: standard deviation of K(t) over K, 5000 "
-                    "particles, Ra 10 000", because='"about", one digit, as an upper bound: twice'),
-    Claim(id="khp95-walls-leakproof", source="KHP95 Sec. II", printed="as well as a leak-proof wall",
-          at_least=1/PARTICLES, value=losses("printed-fixed-rows"),
-          statement="fixed rows need a leak-proof wall besides: particles lost without it, a particle and "
-                    "run, Ra 10 000", because="one particle that would have been lost"),
-    Claim(id="khp95-images-instead", source="KHP95 Sec. II", printed="use instead", at_most=0,
-          value=losses("printed"),
-          statement="mirror images take the place of the leak-proof wall, too: particles lost without it, a "
-                    "particle and run, Ra 10 000", because="none is lost"),
-    Claim(id="khp95-rows-repel", source="KHP95 Sec. II", printed="capable of repelling", at_least=0.5,
-          value=of(carried),
-          statement="fixed rows, here at the fluid's density, are capable of repelling: share of the "
-                    "pressure on the plates that they carry and not the elastic wall",
-          because='"capable" has no number: more than half; the share is a lower bound, all impacts are '
-                  "taken to be as fast as the fastest particle"),
+    *(APPROACH(id=f"khp95-approach{end}", value=questions.approach(STEADY, CELLS, energy),
+               headline=not end, evidence="" if end else "rb/fig8.png",
+               because=f"a few are five at most; {but}; {LAG}",
+               statement="the approach to the steady state is described semiquantitatively, to a few "
+                         f"percent: largest difference of K(t) over the steady K, energy of the {whose}")
+      for end, energy, whose, but in (
+          ("", "ke_field", "field", "smoothing lowers K at the start"),
+          ("-particles", "ke", "particles", "the jitter of the lattice at the start is in K, too"))),
+    said("steady-time", "Fig. 8", "same approach", time_of_approach(),
+         "particles need as long as the grid to be steady at Ra 10 000: ratio of times until K is within 5 "
+         "%", "no number is printed: a fifth; a narrower band would time the noise", **AT_FIG8, expect=1,
+         within=0.2),
+    said("fluctuation-level", "Sec. VI", "about 1%", per_seed(history(questions.scatter, STEADY)),
+         "fluctuations disguise errors of less than 1 %: standard deviation of K(t) over K, 5000 "
+         "particles, Ra 10 000", '"about", one digit, as an upper bound: twice', expect=0.01, within=0.01),
+    said("walls-leakproof", "Sec. II", "as well as a leak-proof wall", losses("printed-fixed-rows"),
+         "fixed rows need a leak-proof wall besides: particles lost without it, a particle and run, Ra 10 "
+         "000", "one particle that would have been lost", at_least=1/PARTICLES),
+    said("images-instead", "Sec. II", "use instead", losses("printed"),
+         "mirror images take the place of the leak-proof wall, too: particles lost without it, a particle "
+         "and run, Ra 10 000", "none is lost", at_most=0),
+    said("rows-repel", "Sec. II", "capable of repelling", of(carried),
+         "fixed rows, here at the fluid's density, are capable of repelling: share of the pressure on the "
+         "plates that they carry and not the elastic wall",
+         '"capable" has no number: more than half; the share is a lower bound, all impacts are taken to be '
+         "as fast as the fastest particle", at_least=0.5),
     PAIRS(id="khp95-monaghan-pairs", source="KHP95 Sec. VI, Fig. 10", printed="pairs", at_least=2,
           value=seen("pairing", particles(1e4, variant="printed-monaghan")),
           statement="with Monaghan's weight particles move in pairs: median of second over first neighbour "
@@ -171,13 +161,12 @@ CLAIMS = (
           value=seen("pairing"),
           statement="with Lucy's weight particles do not pair: median of second over first neighbour "
                     "distance, Ra 10 000"),
-    Claim(id="khp95-robust", source="KHP95 Secs VI, VII", printed="continues to provide solutions",
-          at_most=0.05, value=of(robust),
-          statement="particles give steady solutions at high Ra: change of K in the second half of the run "
-                    "at the highest Ra",
-          because="finite and steady within their errors of a few percent; whether right is another claim"),
-    Claim(id="khp95-robust-right", source="KHP95 Secs VI, VII", printed="solutions", at_most=0.1,
-          statement="what particles give at high Ra solves the equations: |Kg/K_grid - 1| at the highest "
-                    "Ra, the finest grid", because=f"10 % is the paper's error of K; {ALIKE}",
-          value=of(right_at_high)),
+    said("robust", "Secs VI, VII", "continues to provide solutions", of(robust),
+         "particles give steady solutions at high Ra: change of K in the second half of the run at the "
+         "highest Ra",
+         "finite and steady within their errors of a few percent; whether right is another claim",
+         at_most=0.05),
+    said("robust-right", "Secs VI, VII", "solutions", of(right_at_high),
+         "what particles give at high Ra solves the equations: |Kg/K_grid - 1| at the highest Ra, the "
+         "finest grid", f"10 % is the paper's error of K; {ALIKE}", at_most=0.1),
 )

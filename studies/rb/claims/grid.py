@@ -8,12 +8,12 @@ import pandas as pd
 
 from studies.build.names import as_printed, number
 from studies.kit import fits
-from studies.kit.ask import Value, curve, largest, largest_of, last, of, one, rows
+from studies.kit.ask import Array, Value, curve, largest, largest_of, last, of, one, rows
 from studies.kit.claim import Claim
 from studies.kit.stats import CannotTell, Measured
 from studies.kit.table import Tables
 from studies.rb.claims import questions
-from studies.rb.claims.questions import guarded, limit, mean, refuse_dead, rolls
+from studies.rb.claims.questions import guarded, limit, mean, refuse_dead, rolls, said
 from studies.rb.tables import STILL, besides, grid
 
 DENSE: dict[str, Any] = {"eos": "dense"}
@@ -33,14 +33,14 @@ FINISHED = "ke == ke and resolution < inf"      # runs that did not diverge
 def coarse_limit(tables: Tables) -> Measured:
     """K at Ra 10 000 of the limit of grids of 5000 cells at most, errors added."""
     coarse = rows(tables, "means", "2*resolution**2 <= 5000", **GRIDS)
-    limit = fits.grid_limit(coarse["resolution"], coarse["ke"])
-    return Measured(limit.value, limit.err + 2*float(coarse["ke_err"].max()))
+    value, err = fits.grid_limit(coarse.resolution, coarse.ke)
+    return Measured(value, err + 2*coarse.ke_err.max())
 
 
 def form_of_continuity(ra: float, heights: tuple[int, ...], **where: Any) -> Value:
     """|K/K - 1| of the paper's form of continuity over the flux form, worst grid."""
-    ratios = [mean(grid(ra, height, "paper-form", **where))/mean(grid(ra, height, **where))
-              for height in heights]
+    ratios = (mean(grid(ra, height, "paper-form", **where))/mean(grid(ra, height, **where))
+              for height in heights)
     return largest_of(*(abs(ratio - 1) for ratio in ratios))
 
 
@@ -48,8 +48,8 @@ def refuse_diverged_grids(**where: Any) -> Callable[[Tables], None]:
     """A check that refuses grids of which all runs diverged."""
     def check(tables: Tables) -> None:
         runs = rows(tables, "kinetic_energy", **where)
-        if runs["ke"].isna().all():
-            last = runs["t_end"].max()
+        if runs.ke.isna().all():
+            last = runs.t_end.max()
             raise CannotTell(f"all {len(runs)} runs of the grid diverged, the last at t = {last:.0f}")
     return check
 
@@ -61,17 +61,17 @@ def mass_lost() -> Value:
 
 
 @curve
-def change_after_4000(t: np.ndarray, ke: np.ndarray, err: np.ndarray) -> Measured:
+def change_after_4000(t: Array, ke: Array, err: Array) -> Measured:
     """|K(0.8)/K(end) - 1|, t in L^2/eta, where the end is at 0.9 or later."""
     if t[-1] < 0.89:
         raise CannotTell(f"the grid's approach ends at {t[-1]:.2f} L^2/eta: SIZE=paper goes on to 0.9")
-    return Measured(abs(float(np.interp(0.8, t, ke))/ke[-1] - 1), 0.0)
+    return Measured(abs(np.interp(0.8, t, ke)/ke[-1] - 1))
 
 
 def refuse_short(point: dict[str, Any], until: float) -> Callable[[Tables], None]:
     """A check that refuses a run that ends before so many L^2/eta."""
     def check(tables: Tables) -> None:
-        end = rows(tables, "history", **point)["t_viscous"].max()
+        end = rows(tables, "history", **point).t_viscous.max()
         if end < until:
             raise CannotTell(f"the run at Ra {point['ra']:g} ends at {end:.2g} L^2/eta, not at {until:g}")
     return check
@@ -119,8 +119,8 @@ def in_square(column: str, check: Callable[[pd.Series], None], **where: Any) -> 
 
 def refuse_changing(row: pd.Series) -> None:
     """Refuse two rolls that still change, or died: two equal rolls are symmetric, and a grid keeps that."""
-    if row["rolls"] == 2 and str(row["converged"]) != "True":
-        raise CannotTell(f"the two rolls of the start are there at t = {row['t_end']:.0f}, but not steady")
+    if row.rolls == 2 and str(row.converged) != "True":
+        raise CannotTell(f"the two rolls of the start are there at t = {row.t_end:.0f}, but not steady")
     refuse_dead(row)
 
 
@@ -148,24 +148,22 @@ def energies() -> Iterator[Claim]:
                                                       laws.items()):
         name = f"ke-{ra}".replace(" ", "")
         main = name + end == "ke-5000"
-        yield Claim(id=f"khp95-{name}{end}", source="KHP95 Sec. VI", printed=printed, because=LAST,
-                    headline=main, evidence="rb/main.png" if main else "", **as_printed(name),
-                    value=limit(float(name[3:]), transport=law),
-                    statement=f"K of the infinitely fine grid, ideal gas, Ra {ra}, {words}")
+        yield said(f"{name}{end}", "Sec. VI", printed, limit(float(name[3:]), transport=law),
+                   f"K of the infinitely fine grid, ideal gas, Ra {ra}, {words}", LAST, **as_printed(name),
+                   headline=main, evidence="rb/main.png" if main else "")
 
 
 def lines() -> Iterator[Claim]:
     """K against Ra^-1/2, and what belongs to its lines against L^-2."""
     for name, (figure, where, words) in LINES.items():
-        yield Claim(id=f"khp95-{name}", source=f"KHP95 Sec. V, {figure}", printed="almost exactly linearly",
-                    value=questions.straightness(**where), at_most=0.01, because=ALMOST,
-                    headline=name in SHOWN, evidence=SHOWN.get(name, ""),
-                    statement=f"K is linear in Ra^-1/2 from {words}: largest distance over K(4 Ra_c)")
+        yield said(name, f"Sec. V, {figure}", "almost exactly linearly", questions.straightness(**where),
+                   f"K is linear in Ra^-1/2 from {words}: largest distance over K(4 Ra_c)", ALMOST,
+                   at_most=0.01, headline=name in SHOWN, evidence=SHOWN.get(name, ""))
     for name, of_line in (("slopes", questions.slope_alone), ("intercepts", questions.intercept_alone)):
-        yield Claim(id=f"khp95-{name}-l2", source="KHP95 Sec. V", headline=True, at_most=0.05, because=NEXT,
-                    printed="almost exactly linearly with L^-2", value=questions.against_cells(of_line),
-                    statement=f"{name} of the lines are linear in L^-2: largest distance over the whole "
-                              "change")
+        yield said(f"{name}-l2", "Sec. V", "almost exactly linearly with L^-2",
+                   questions.against_cells(of_line),
+                   f"{name} of the lines are linear in L^-2: largest distance over the whole change", NEXT,
+                   headline=True, at_most=0.05)
 
 
 CLAIMS = (
@@ -179,60 +177,54 @@ CLAIMS = (
           statement="the line may be read at Ra 10 000 = 5.9 times onset: K over the line, less 1",
           value=limit(1e4)/questions.line(questions.reading(1e4), low=1.2) - 1, expect=0,
           within=LAST_DIGIT/number("ke-10000"), because=f"{LAST} of K at Ra 10 000"),
-    Claim(id="khp95-ghost-density-mass", source="KHP95 Sec. V", printed="unity", at_most=1e-3,
-          statement="density 1 outside of the system is no trouble: mass lost per L^2/eta", value=mass_lost(),
-          because="no trouble is less than the last printed digit of K, near onset after some time of 10 "
-                  "L^2/eta"),
-    Claim(id="khp95-ghost-density-energy", source="KHP95 Sec. V", printed="unity", at_most=1e-3,
-          statement="density 1 outside of the system is no trouble: K against the conservative form on the "
-                    "same grid", value=form_of_continuity(1e4, (24, 32, 48)),
-          because="half of the last printed digit of 0.004 81"),
-    Claim(id="khp95-grid-converged", source="KHP95 Sec. V", printed="several thousand cells",
-          statement="several thousand cells are fully converged by themselves: error of K at Ra 10 000 on "
-                    "the finest grid of 1800 (30 x 60) to 5000",
-          value=abs(last("means", "ke", SEVERAL, by="resolution", **GRIDS)/limit(1e4) - 1),
-          at_most=LAST_DIGIT/number("ke-10000"),
-          because=f"{LAST} of K: fully converged, all of them are right"),
-    Claim(id="khp95-grid-cells", source="KHP95 Secs V, VI", printed="several thousand cells",
-          at_most=LAST_DIGIT,
-          statement="grids of 5000 cells at most, extrapolated in L^-2, give K at Ra 10 000 fully "
-                    "converged: distance between this limit and the spectral method",
-          value=abs(of(coarse_limit) - one("means", "ke", **SPECTRAL)),
-          because=f"{LAST} of K; 50 x 100 is the largest grid that is named"),
-    Claim(id="khp95-grid-fluctuates", source="KHP95 Sec. VI", printed="begin to fluctuate",
-          at_least=FLUCTUATES,
-          statement="K of centred differences on 50 rows fluctuates at Ra of 50 000 or more",
-          value=largest_of(*(scattered(ra, 50) for ra in WILD)), because="steady runs leave less than 1e-5"),
-    Claim(id="khp95-fluctuate-physical", source="KHP95 Sec. VI", printed="more sophisticated techniques",
-          at_most=0.25,
-          statement="fluctuations at Ra of 50 000 or more are of the grid, not of the flow: scatter on 100 "
-                    "rows over that on 50 rows", value=scatter_refined(),
-          because="second order; if it stays, it is the flow"),
-    Claim(id="khp95-transient-grid", source="KHP95 Fig. 8", printed="two rolls",
-          statement="the printed initial rolls lead to a steady state of two rolls at Ra 10 000",
-          value=rolls(grid(1e4)), **as_printed("fig8-rolls"), because="a whole number"),
-    Claim(id="khp95-fig9-time", source="KHP95 Figs 8, 9, 12", printed="5000", at_most=0.01,
-          statement="the flow at Ra 10 000 is steady by t = 5000: change of K from 4000 on",
-          value=change_after_4000("history", "ke", "t_viscous", **grid(1e4, 50)),
-          because="no number is printed: 1 %, the size of the fluctuations of particles"),
-    Claim(id="khp95-heat-transport", source="KHP95 Sec. IV", printed="more efficiently", at_least=1,
-          statement="convection carries heat better than conduction alone: Nusselt number at Ra 10 000",
-          value=limit(1e4, "nu"), because="conduction alone is 1"),
-    Claim(id="khp95-dense-divergence", source="KHP95 Sec. IV", printed="slow divergence", at_least=DRIFTS,
-          statement="grid runs of the dense fluid slowly diverge at very long times, density 1 outside of "
-                    "the system: |K/K - 1| after 20 L^2/eta against the flux form, whose K stays",
-          value=drift_of_dense(), because="steady runs leave less than 1e-5",
-          after="the flux form had been seen to be steady"),
-    Claim(id="khp95-two-rolls-square", source="KHP95 Sec. VI, Fig. 10", printed="two rolls",
-          statement="the ideal gas of Fig. 10 in the square convects with two rolls, on the grid",
-          value=in_square("rolls", refuse_dead, variant="fig10", eos="ideal"), **as_printed("fig10-rolls"),
-          because="a whole number"),
-    Claim(id="khp95-fig10-dense", source="KHP95 Sec. VI, Fig. 10", printed="dense fluid", at_least=STILL,
-          value=in_square("ke", lambda row: None, variant="fig10", eos="dense"),
-          statement="the dense fluid flows in the square between temperatures 10 and 0.5: K of the grid at "
-                    "the Ra of the ideal gas", because="above what is left of rest"),
-    Claim(id="khp95-one-roll-square", source="KHP95 Sec. VI, Fig. 10", printed="one",
-          statement="two rolls in the square give way to one near onset: rolls at Ra 7000 after a start "
-                    "with two", value=in_square("rolls", refuse_changing, variant="two-rolls", ra=7000.0),
-          expect=1, within=0, because="a whole number"),
+    said("ghost-density-mass", "Sec. V", "unity", mass_lost(),
+         "density 1 outside of the system is no trouble: mass lost per L^2/eta",
+         "no trouble is less than the last printed digit of K, near onset after some time of 10 L^2/eta",
+         at_most=1e-3),
+    said("ghost-density-energy", "Sec. V", "unity", form_of_continuity(1e4, (24, 32, 48)),
+         "density 1 outside of the system is no trouble: K against the conservative form on the same grid",
+         "half of the last printed digit of 0.004 81", at_most=1e-3),
+    said("grid-converged", "Sec. V", "several thousand cells",
+         abs(last("means", "ke", SEVERAL, by="resolution", **GRIDS)/limit(1e4) - 1),
+         "several thousand cells are fully converged by themselves: error of K at Ra 10 000 on the finest "
+         "grid of 1800 (30 x 60) to 5000", f"{LAST} of K: fully converged, all of them are right",
+         at_most=LAST_DIGIT/number("ke-10000")),
+    said("grid-cells", "Secs V, VI", "several thousand cells",
+         abs(of(coarse_limit) - one("means", "ke", **SPECTRAL)),
+         "grids of 5000 cells at most, extrapolated in L^-2, give K at Ra 10 000 fully converged: distance "
+         "between this limit and the spectral method",
+         f"{LAST} of K; 50 x 100 is the largest grid that is named", at_most=LAST_DIGIT),
+    said("grid-fluctuates", "Sec. VI", "begin to fluctuate", largest_of(*(scattered(ra, 50) for ra in WILD)),
+         "K of centred differences on 50 rows fluctuates at Ra of 50 000 or more",
+         "steady runs leave less than 1e-5", at_least=FLUCTUATES),
+    said("fluctuate-physical", "Sec. VI", "more sophisticated techniques", scatter_refined(),
+         "fluctuations at Ra of 50 000 or more are of the grid, not of the flow: scatter on 100 rows over "
+         "that on 50 rows", "second order; if it stays, it is the flow", at_most=0.25),
+    said("transient-grid", "Fig. 8", "two rolls", rolls(grid(1e4)),
+         "the printed initial rolls lead to a steady state of two rolls at Ra 10 000", "a whole number",
+         **as_printed("fig8-rolls")),
+    said("fig9-time", "Figs 8, 9, 12", "5000",
+         change_after_4000("history", "ke", "t_viscous", **grid(1e4, 50)),
+         "the flow at Ra 10 000 is steady by t = 5000: change of K from 4000 on",
+         "no number is printed: 1 %, the size of the fluctuations of particles", at_most=0.01),
+    said("heat-transport", "Sec. IV", "more efficiently", limit(1e4, "nu"),
+         "convection carries heat better than conduction alone: Nusselt number at Ra 10 000",
+         "conduction alone is 1", at_least=1),
+    said("dense-divergence", "Sec. IV", "slow divergence", drift_of_dense(),
+         "grid runs of the dense fluid slowly diverge at very long times, density 1 outside of the system: "
+         "|K/K - 1| after 20 L^2/eta against the flux form, whose K stays",
+         "steady runs leave less than 1e-5", at_least=DRIFTS,
+         after="the flux form had been seen to be steady"),
+    said("two-rolls-square", "Sec. VI, Fig. 10", "two rolls",
+         in_square("rolls", refuse_dead, variant="fig10", eos="ideal"),
+         "the ideal gas of Fig. 10 in the square convects with two rolls, on the grid", "a whole number",
+         **as_printed("fig10-rolls")),
+    said("fig10-dense", "Sec. VI, Fig. 10", "dense fluid",
+         in_square("ke", lambda row: None, variant="fig10", eos="dense"),
+         "the dense fluid flows in the square between temperatures 10 and 0.5: K of the grid at the Ra of "
+         "the ideal gas", "above what is left of rest", at_least=STILL),
+    said("one-roll-square", "Sec. VI, Fig. 10", "one",
+         in_square("rolls", refuse_changing, variant="two-rolls", ra=7000.0),
+         "two rolls in the square give way to one near onset: rolls at Ra 7000 after a start with two",
+         "a whole number", expect=1, within=0),
 )

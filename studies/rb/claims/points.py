@@ -48,13 +48,13 @@ def from_grid(variant: str, height: int) -> Value:
 
 def order_of_heat(tables: Tables) -> Measured:
     """-d ln(largest less smallest Nu of three places)/d ln rows."""
-    heights, apart = CARRIED_ROWS[1:], []
+    heights, places, apart = CARRIED_ROWS[1:], ("lower", "upper", "layer"), []
     for height in heights:
         here = points(RA, "moving-delaunay", height)
-        ordered = sorted((over_seeds("walls", "nu_plate", **here, plate=place)(tables)
-                          for place in ("lower", "upper", "layer")), key=lambda one: one.value)
-        apart.append(ordered[-1] - ordered[0])
-    return -fits.power_law(heights, [one.value for one in apart], err=[one.err for one in apart]).slope
+        nu = sorted(over_seeds("walls", "nu_plate", **here, plate=place)(tables) for place in places)
+        apart.append(nu[-1] - nu[0])
+    values, errs = zip(*apart)
+    return -fits.power_law(heights, values, err=errs).slope
 
 
 def carried() -> Iterator[Claim]:
@@ -149,26 +149,22 @@ CLAIMS = (
           after=CUT,
           statement="points that move and exchange over closed faces converge on the gas: |K/K_grid - 1| "
                     "at Ra 10 000, extrapolated"),
-    Claim(id="rr98-eq39-rb-literal", source="RR98 Eq. 39", headline=True, evidence="rb/moving_points.png",
-          printed=CONSISTENT, value=from_grid("moving-literal", MANY),
-          at_most=0.015, because=PRINTED_GOAL, after=THIRD,
-          statement="points that move with v under Eqs 34-36 convect as the gas does: |K/K_grid - 1| at Ra "
-                    "10 000, 40 rows"),
-    Claim(id="rr98-eq46-48-rb-convective", source=MOVING, value=from_grid("moving-convective", MANY),
-          printed=CONSISTENT, at_most=0.015, because=PRINTED_GOAL, after=TWO,
-          statement="Eqs 46-48 on volumes that stay convect as the gas does: |K/K_grid - 1| at Ra 10 000, "
-                    "40 rows"),
-    Claim(id="rr98-eq49-rb-constant-mass", source="RR98 Eq. 49", printed="not too large Reynolds numbers",
-          headline=True, evidence="rb/moving_points.png",
-          value=from_grid("moving-constant-mass", MANY), at_most=0.015, because=PRINTED_GOAL, after=THIRD,
-          statement="points of constant mass convect as the gas does: |K/K_grid - 1| at Ra 10 000, 40 rows"),
+    *(Claim(id=f"rr98-{name}", source=source, printed=printed, value=from_grid(f"moving-{motion}", rows),
+            at_most=most, because=PRINTED_GOAL, after=after, headline=decides,
+            evidence="rb/moving_points.png"*decides,
+            statement=f"{words} as the gas does: |K/K_grid - 1| at Ra 10 000, {rows} rows")
+      for name, source, printed, motion, rows, most, after, decides, words in (
+          ("eq39-rb-literal", "RR98 Eq. 39", CONSISTENT, "literal", MANY, 0.015, THIRD, True,
+           "points that move with v under Eqs 34-36 convect"),
+          ("eq46-48-rb-convective", MOVING, CONSISTENT, "convective", MANY, 0.015, TWO, False,
+           "Eqs 46-48 on volumes that stay convect"),
+          ("eq49-rb-constant-mass", "RR98 Eq. 49", "not too large Reynolds numbers", "constant-mass", MANY,
+           0.015, THIRD, True, "points of constant mass convect"),
+          ("eq50-rb-sph", "RR98 Eq. 50", LIMIT, "sph", FEW, 0.03, THIRD, False,
+           "smoothed particles, a = 1, b = -1, convect"))),
     Claim(id="own-eq49-rb-static", source="RR98 Eq. 49", at_most=0.5,
           value=from_grid("moving-less-static", MANY)/from_grid("moving-constant-mass", MANY),
           because="less than a half: more than all other causes together", after=TWO,
           statement="what is wrong at constant mass is that static pressure holds points in place: the "
                     "error without it over that with it, 40 rows"),
-    Claim(id="rr98-eq50-rb-sph", source="RR98 Eq. 50", value=from_grid("moving-sph", FEW), at_most=0.03,
-          printed=LIMIT, because=PRINTED_GOAL, after=THIRD,
-          statement="smoothed particles, a = 1, b = -1, convect as the gas does: |K/K_grid - 1| at Ra 10 "
-                    "000, 25 rows"),
 )

@@ -7,7 +7,8 @@ import numpy as np
 import pandas as pd
 
 from studies.kit import fits, stats
-from studies.kit.ask import NoRows, Value, curve, one, rows
+from studies.kit.ask import Array, NoRows, Value, curve, one, rows
+from studies.kit.claim import Claim
 from studies.kit.stats import CannotTell, Measured
 from studies.kit.table import Tables
 from studies.rb.tables import SCENE, STILL, Point, besides, grid
@@ -23,6 +24,13 @@ LEAST = 5       # points of a line: three are left to tell how straight it is
 ONSET = {"periodic": 1707.9222997145034, "walls": 5011.71}
 ONE_STATE = {"periodic": 2, "walls": 1}     # rolls of the states that make a line
 CELLS = (24, 32, 48)                        # rows of the grids that have lines
+
+
+def said(name: str, place: str, printed: str, value: Value, statement: str, because: str,
+         **more: Any) -> Claim:
+    """A statement of KHP95: where, in which words or digits, what is measured of it, why its limits."""
+    return Claim(id=f"khp95-{name}", source=f"KHP95 {place}", printed=printed, value=value,
+                 statement=statement, because=because, **more)
 
 
 def guarded(value: Value, check: Callable[[Tables], object]) -> Value:
@@ -48,16 +56,15 @@ def alike(point: Point) -> Value:
     return one("errors", "reference", energy="Kg", **point)
 
 
-def against_grid(point: Point, column: str = "ke_field") -> Value:
-    """K of particles over that of the grid, extrapolated, in the same flow."""
+def against_grid(point: Point, column: str = "ke_field", unit: Value | None = None) -> Value:
+    """K of particles over that of the grid, extrapolated, in the same flow; or over another unit."""
     beside = grid(1.0) | {name: point[name] for name in SCENE}
-    return same_flow(mean(point, column)/mean(beside), point, beside)
+    return same_flow(mean(point, column)/(unit or mean(beside)), point, beside)
 
 
 def against_alike(point: Point) -> Value:
     """Kg over K of the grid's field smoothed alike, in the same flow: 1 if it is right."""
-    beside = grid(1.0) | {name: point[name] for name in SCENE}
-    return same_flow(mean(point, "ke_field")/alike(point), point, beside)
+    return against_grid(point, unit=alike(point))
 
 
 def over_runs(point: Point, energy: str = "ke_field") -> Value:
@@ -65,16 +72,16 @@ def over_runs(point: Point, energy: str = "ke_field") -> Value:
     asked = one("kinetic_energy", energy, **point)
 
     def answer(tables: Tables) -> Measured:
-        runs = rows(tables, "kinetic_energy", "ke == ke", **point)
-        runs = runs[runs["rolls"] == one_flow(tables, point)["rolls"]]
-        return stats.combine(list(zip(runs[energy], runs[f"{energy}_err"], strict=True)))
+        flow = one_flow(tables, point)
+        runs = rows(tables, "kinetic_energy", "ke == ke", rolls=flow.rolls, **point)
+        return stats.combine(list(zip(runs[energy], runs[f"{energy}_err"])))
     return Value(answer, str(asked).replace("one", "mean over runs of one flow", 1), asked.asks)
 
 
-def diverged(tables: Tables, point: Point) -> np.ndarray:
+def diverged(tables: Tables, point: Point) -> Array:
     """Which runs of a point diverged, (n,): their rows have no energy."""
     try:
-        return rows(tables, "kinetic_energy", **point)["ke"].isna().to_numpy()
+        return rows(tables, "kinetic_energy", **point).ke.isna().to_numpy()
     except NoRows:
         return np.zeros(1, bool)
 
@@ -92,11 +99,10 @@ def one_flow(tables: Tables, point: Point) -> pd.Series:
     if diverged(tables, point).all():
         raise CannotTell(f"all runs of {point['method']}, {point['variant']} at Ra {point['ra']:g} diverged")
     row = rows(tables, "means", **point).iloc[0]
-    if row["mixed"] > 0:
-        seeds = row["mixed"] + row["seeds"]
-        raise CannotTell(f"{row['mixed']:.0f} of {seeds:.0f} seeds of {point['variant']}, "
+    if row.mixed > 0:
+        raise CannotTell(f"{row.mixed:.0f} of {row.mixed + row.seeds:.0f} seeds of {point['variant']}, "
                          f"{point['resolution']:g} rows, ended with another number of rolls than the "
-                         f"{row['rolls']:.0f} of the others at Ra {point['ra']:g}: the flow is not decided")
+                         f"{row.rolls:.0f} of the others at Ra {point['ra']:g}: the flow is not decided")
     return row
 
 
@@ -116,7 +122,7 @@ def same_flow(value: Value, point: Point, other: Point) -> Value:
 def rolls_in(tables: Tables, point: Point) -> int:
     """Rolls of the seeds of which the mean is made; none where motion has died."""
     row = one_flow(tables, point)
-    return int(row["rolls"]) if row["ke"] > STILL else 0
+    return int(row.rolls) if row.ke > STILL else 0
 
 
 def rolls(point: Point) -> Value:
@@ -126,8 +132,8 @@ def rolls(point: Point) -> Value:
 
 def refuse_dead(row: pd.Series) -> None:
     """Refuse a row of `means` or `kinetic_energy` where nothing moves."""
-    if not row["ke"] > STILL:
-        raise CannotTell(f"K is {row['ke']:.1g} at the end: the flow has died, its rolls are of round-off")
+    if not row.ke > STILL:
+        raise CannotTell(f"K is {row.ke:.1g} at the end: the flow has died, its rolls are of round-off")
 
 
 # --- curves ---------------------------------------------------------------------------------------
@@ -138,38 +144,38 @@ def history(question: Any, point: Point, energy: str = "ke_field", such: str = "
     return question("history", energy, "t", such, need=SAMPLES, **point)
 
 
-def late(t: np.ndarray, ke: np.ndarray) -> np.ndarray:
+def late(t: Array, ke: Array) -> Array:
     """The second half of a run."""
     return ke[t > t[-1]/2]
 
 
 @curve
-def average(t: np.ndarray, ke: np.ndarray, err: np.ndarray) -> Measured:
+def average(t: Array, ke: Array, err: Array) -> Measured:
     """Of all samples."""
-    return Measured(float(ke.mean()))
+    return Measured(ke.mean())
 
 
 @curve
-def scatter(t: np.ndarray, ke: np.ndarray, err: np.ndarray) -> Measured:
+def scatter(t: Array, ke: Array, err: Array) -> Measured:
     """Standard deviation over mean of the second half of a run."""
     half = late(t, ke)
-    return Measured(float(half.std()/half.mean()))
+    return Measured(half.std()/half.mean())
 
 
 @curve
-def drift(t: np.ndarray, ke: np.ndarray, err: np.ndarray) -> Measured:
+def drift(t: Array, ke: Array, err: Array) -> Measured:
     """Difference of the means of the last quarter and of the third, relative."""
     third, last = np.array_split(late(t, ke), 2)
-    return Measured(float(abs(last.mean()/third.mean() - 1)))
+    return Measured(abs(last.mean()/third.mean() - 1))
 
 
 @curve
-def settling(t: np.ndarray, ke: np.ndarray, err: np.ndarray) -> Measured:
+def settling(t: Array, ke: Array, err: Array) -> Measured:
     """When K, averaged over a fortieth of the run, is near its late mean for good."""
     n = max(1, len(ke)//40)
     smooth = np.convolve(ke, np.full(n, 1/n), "same")[:len(ke) - n//2]
-    far = np.flatnonzero(np.abs(smooth/late(t, ke).mean() - 1) > NEAR)
-    return Measured(float(t[far[-1]]) if len(far) else 0.0)
+    far = np.abs(smooth/late(t, ke).mean() - 1) > NEAR
+    return Measured(t[:len(far)][far].max(initial=0.0))
 
 
 def approach(point: Point, beside: Point, energy: str) -> Value:
@@ -179,8 +185,8 @@ def approach(point: Point, beside: Point, energy: str) -> Value:
     def answer(tables: Tables) -> Measured:
         cells = rows(tables, "history", **beside).sort_values("t")
         runs = rows(tables, "history", need=SAMPLES, **point)
-        apart = np.abs(runs[energy] - np.interp(runs["t"], cells["t"], cells["ke"]))
-        return stats.over_seeds(apart.groupby(runs["seed"]).max()/unit(tables).value)
+        apart = (runs[energy] - np.interp(runs.t, cells.t, cells.ke)).abs()
+        return stats.over_seeds(apart.groupby(runs.seed).max()/unit(tables).value)
     words = f"mean over seeds of largest |{energy}(t) - ke(t) of the grid| in history, over {unit}"
     return Value(answer, words, history(scatter, point, energy).asks)
 
@@ -194,31 +200,31 @@ def line(question: Any, low: float = 1.0, height: float = np.inf, sides: str = "
 
 
 @curve
-def bend(x: np.ndarray, y: np.ndarray, err: np.ndarray) -> Measured:
+def bend(x: Array, y: Array, err: Array) -> Measured:
     """Largest distance from a straight line by least squares, with the largest error."""
-    return Measured(float(np.abs(fits.line(x, y).residuals).max()), float(err.max()))
+    return Measured(np.abs(fits.line(x, y).residuals).max(), err.max())
 
 
 @curve
-def slope_alone(x: np.ndarray, y: np.ndarray, err: np.ndarray) -> Measured:
+def slope_alone(x: Array, y: Array, err: Array) -> Measured:
     """Of the same line; its error is that of the points at both ends."""
-    return Measured(fits.line(x, y).slope.value, float(err.max()/np.ptp(x)))
+    return Measured(fits.line(x, y).slope.value, err.max()/np.ptp(x))
 
 
 @curve
-def intercept_alone(x: np.ndarray, y: np.ndarray, err: np.ndarray) -> Measured:
+def intercept_alone(x: Array, y: Array, err: Array) -> Measured:
     """Of the same line, at 0, with the error of the points."""
-    return Measured(fits.line(x, y).intercept.value, float(err.max()))
+    return Measured(fits.line(x, y).intercept.value, err.max())
 
 
 def reading(ra: float, anew: bool = False) -> Any:
     """The line read at a Rayleigh number, with the error of the points alone, or as if drawn `anew` through
     other points with the same scatter.
     """
-    def read(x: np.ndarray, y: np.ndarray, err: np.ndarray) -> Measured:
-        at = fits.line(x, y).at(ra**-0.5)
-        far = (ra**-0.5 - x.mean())**2/np.sum((x - x.mean())**2)
-        return at if anew else at._replace(err=float(err.max()*np.sqrt(1/len(x) + far)))
+    def read(x: Array, y: Array, err: Array) -> Measured:
+        at, mean = fits.line(x, y).at(ra**-0.5), x.mean()
+        far = (ra**-0.5 - mean)**2/np.sum((x - mean)**2)
+        return at if anew else at._replace(err=err.max()*np.sqrt(1/len(x) + far))
     read.__name__ = f"line at Ra {ra:g} through "
     return curve(read)
 
@@ -233,8 +239,8 @@ def against_cells(question: Any) -> Value:
     lines = [line(question, height=height) for height in CELLS]
 
     def answer(tables: Tables) -> Measured:
-        values, errs = zip(*(one(tables) for one in lines), strict=True)
-        residuals = fits.line(np.array(CELLS)**-2.0, values).residuals
-        return Measured(float(np.abs(residuals).max()), max(errs))/Measured(float(np.ptp(values)), max(errs))
+        values, errs = zip(*(one(tables) for one in lines))
+        residuals, err = fits.line(np.array(CELLS)**-2.0, values).residuals, max(errs)
+        return Measured(np.abs(residuals).max(), err)/Measured(np.ptp(values), err)
     words = f"distance from a line over resolution**-2, over the whole change, of {line(question)}"
     return Value(answer, words, lines[0].asks)

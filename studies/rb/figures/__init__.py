@@ -30,7 +30,7 @@ def main(tables: Tables) -> Figure | None:
         return None
     page = Figure(figsize=(7, 8.6), layout="constrained")
     upper, lower = page.subplots(2, 1, height_ratios=(5, 4))
-    whole(upper, tables, limit, looks.finest(spam[spam["particles"] <= KHP95_PARTICLES]))
+    whole(upper, tables, limit, looks.finest(spam[spam.particles <= KHP95_PARTICLES]))
     over_rows(lower, errors.of_series(found, SHOWN))
     page.suptitle("Points converge on the grid, smooth particles do not", fontsize=12)
     return page
@@ -38,7 +38,7 @@ def main(tables: Tables) -> Figure | None:
 
 def whole(axes: Axes, tables: Tables, limit: pd.DataFrame, spam: pd.DataFrame) -> None:
     """K against Ra^-1/2: grid, points and particles with as many rows, and the printed numbers."""
-    size = spam["resolution"].max()
+    size = spam.resolution.max()
     energy.grid(axes, limit, "grid, extrapolated")
     for kind, (column, words) in ENERGIES.items():
         style = KIND[kind] | {"markersize": 6, "zorder": 4}
@@ -75,7 +75,7 @@ def over_rows(axes: Axes, chosen: pd.DataFrame) -> None:
     """|error| of K against rows, with lines; the look of a series is in the legend above."""
     for key, style in SHOWN.items():
         series = errors.of_series(chosen, [key])
-        axes.plot(series["resolution"], series["error"].abs(), **style | {"marker": "", "lw": 0.8})
+        axes.plot(series.resolution, series.error.abs(), **style | {"marker": "", "lw": 0.8})
         errors.signed(axes, series, "", style)
     if len(chosen):
         beside = "$K_g$ beside the grid's field, smoothed likewise"

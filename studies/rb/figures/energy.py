@@ -31,27 +31,27 @@ TICKS = (-1000, -300, -100, -30, -10, -5, 0, 5, 10, 30, 100, 300, 1000)
 
 def grid(axes: Axes, limit: pd.DataFrame, words: str) -> None:
     """Line and markers of an extrapolated grid; the line stops where motion dies out."""
-    style, flow = KIND["grid"], limit[limit["ke"] > STILL]
+    style, flow = KIND["grid"], limit[limit.ke > STILL]
     if len(flow):
-        axes.errorbar(flow["ra"]**-0.5, flow["ke"], flow["ke_err"], label=words, **style)
-        axes.plot(limit["ra"]**-0.5, limit["ke"], **style | MARKS)
+        axes.errorbar(flow.ra**-0.5, flow.ke, flow.ke_err, label=words, **style)
+        axes.plot(limit.ra**-0.5, limit.ke, **style | MARKS)
 
 
 def energies(axes: Axes, spam: pd.DataFrame, column: str, words: str, style: Style, aside=0.0) -> None:
     """An energy of particles by Ra, marks a little to the right; no interval reaches below zero."""
     if spam.empty:
         return
-    x, ke, err = spam["ra"]**-0.5 + aside, spam[column], spam[f"{column}_err"]
+    x, ke, err = spam.ra**-0.5 + aside, spam[column], spam[f"{column}_err"]
     axes.errorbar(x, ke, [np.minimum(err, ke), err], label=words, **style | MARKS)
-    looks.cross_out(axes, x, ke, spam["steady"])
+    looks.cross_out(axes, x, ke, spam.steady)
 
 
 def name_frozen(axes: Axes, limit: pd.DataFrame, spam: pd.DataFrame) -> None:
     """A word where the grid convects and the finest particles, from weak rolls, stand still on a lattice."""
     both = looks.finest(spam).merge(limit[["ra", "ke"]], on="ra", suffixes=("", "_grid"))
-    frozen = both[(both["ke_grid"] > STILL) & (both["ke_field"] < 0.01*both["ke_grid"])]
+    frozen = both[(both.ke_grid > STILL) & (both.ke_field < 0.01*both.ke_grid)]
     line = {"arrowstyle": "-", "lw": 0.6, "shrinkB": 4}
-    for ra in frozen["ra"]:
+    for ra in frozen.ra:
         axes.annotate("frozen, from weak rolls", (ra**-0.5, 0), xytext=(-14, 16),
                       textcoords="offset points", fontsize=8, ha="right", arrowprops=line)
 
@@ -67,7 +67,7 @@ def fig8(tables: Tables) -> Figure | None:
     """Kinetic energy against time while weak rolls grow: particles, one line a seed, and the grid."""
     spam = looks.nearest(looks.rows(tables, "history", **SPAM, **LAYER))
     # KHP95's 5000 particles; finer runs keep few samples
-    spam = looks.finest(spam[spam["resolution"] <= 50])
+    spam = looks.finest(spam[spam.resolution <= 50])
     cells = looks.finest(looks.nearest(looks.rows(tables, "history", **GRID, **LAYER)))
     if spam.empty or cells.empty:
         return None
@@ -76,9 +76,9 @@ def fig8(tables: Tables) -> Figure | None:
         for number, (_, run) in enumerate(groups(spam, "seed")):
             style = KIND[kind] | {"marker": "", "lw": 0.9, "alpha": 0.8}
             first = "" if number else f"{words}, one line a seed"
-            axes.plot(run["t_viscous"], run[column], label=first, **style)
+            axes.plot(run.t_viscous, run[column], label=first, **style)
     style = KIND["grid"] | {"marker": "", "lw": 2.2}
-    axes.plot(cells["t_viscous"], cells["ke"], label="grid", **style)
+    axes.plot(cells.t_viscous, cells.ke, label="grid", **style)
     axes.set(title=f"Particles (spam) lag behind the grid, Ra = {spam['ra'].max():g}    [KHP95, Fig. 8]",
              xlabel=r"time  [$L^2/\nu$]; 1 is 5000 in KHP95's units", ylabel=ENERGY, ylim=(0, None))
     axes.legend(loc="upper right")
@@ -106,9 +106,9 @@ def changes(tables: Tables, method: str, order: Iterable[str], sizes: tuple[int,
             kinds: dict[str, str], title: str) -> Figure | None:
     """Errors of those variants that were run with as many rows; none if there is nothing to compare."""
     scene = LAYER | {"method": method, "ra": RA}
-    frame, gone = (frame[frame["resolution"].isin(sizes) & frame["variant"].isin([*order])]
+    frame, gone = (frame[frame.resolution.isin(sizes) & frame.variant.isin([*order])]
                    for frame in (looks.errors(tables, **scene), looks.diverged(tables, **scene)))
-    there = {*frame["variant"], *gone["variant"]}
+    there = {*frame.variant, *gone.variant}
     names = [name for name in order if name in there]
     at: dict[Any, int] = {name: number for number, name in enumerate(names)}
     if len(names) < 2 or frame.empty:
@@ -116,15 +116,15 @@ def changes(tables: Tables, method: str, order: Iterable[str], sizes: tuple[int,
     page, axes = figure(width=8.4, height=1.8 + 0.3*len(names))
     axes.axvline(0, color="black", marker="", ls="-", lw=1, zorder=0)
     for (lower, size), energy in product(zip((0, LOWER), sizes), kinds):
-        series = frame[(frame["resolution"] == size) & (frame["energy"] == energy)]
-        y = series["variant"].map(at) + lower
+        series = frame[(frame.resolution == size) & (frame.energy == energy)]
+        y = series.variant.map(at) + lower
         dots(axes, series, y, kinds[energy], KIND[energy.lower()])
     for row in gone.itertuples():
         say_diverged(axes, row, at[row.variant] + LOWER*sizes.index(row.resolution))
     axes.set_yticks(range(len(names)), labels=[name_of(method, name) for name in names], fontsize=8)
     axes.set(ylabel="method", ylim=(len(names) - 0.4, -0.6),
              xlabel=f"error of $K$ against the grid  [%], linear to {LINEAR} %, logarithmic beyond")
-    symlog(axes, frame["error"])
+    symlog(axes, frame.error)
     page.suptitle(f"{title}; Ra = {RA}")
     page.legend(loc="outside lower center", ncols=3, title_fontsize=8,
                 title=f"filled: {sizes[0]} rows, open: {sizes[1]}; bars: 95 % intervals")
@@ -135,10 +135,10 @@ def dots(axes: Axes, series: pd.DataFrame, y: pd.Series, words: str, style: dict
     """The error [%] of each variant on its line; those below a line are open."""
     if series.empty:
         return
-    error, lower = 100*series["error"], bool((y % 1).any())
-    axes.errorbar(error, y, xerr=100*series["error_err"], label="" if lower else words,
+    error, lower = 100*series.error, bool((y % 1).any())
+    axes.errorbar(error, y, xerr=100*series.error_err, label="" if lower else words,
                   **style | MARKS | (OPEN if lower else {}))
-    looks.cross_out(axes, error, y, series["steady"])
+    looks.cross_out(axes, error, y, series.steady)
 
 
 def say_diverged(axes: Axes, row: Any, height: float) -> None:

@@ -57,7 +57,7 @@ def convergence(tables: Tables) -> Figure | None:
     dotted line is what smoothing alone takes from the grid.
     """
     chosen = of_series(looks.errors(tables, **LAYER), METHODS)
-    ras = [ra for ra in RA_SHOWN if (chosen["ra"] == ra).any()]
+    ras = [ra for ra in RA_SHOWN if (chosen.ra == ra).any()]
     kinds = [{key: METHODS[key] for key in METHODS if (key in WORDS) == smooth} for smooth in (False, True)]
     kinds = [keys for keys in kinds if len(of_series(chosen, keys))]
     if not ras:
@@ -68,7 +68,7 @@ def convergence(tables: Tables) -> Figure | None:
         for axes, ra in zip(line, ras):
             if keys.keys() == WORDS.keys():
                 smoothing(axes, looks.seen(tables, **LAYER, ra=ra))
-            over_rows(axes, rows[rows["ra"] == ra], keys)
+            over_rows(axes, rows[rows.ra == ra], keys)
             finish(axes, f"Ra = {ra:g}", rows)
             below(axes, title=PALE, title_fontsize=8)
         line[0].set_ylabel("relative error")
@@ -103,7 +103,7 @@ def fixed_points(tables: Tables) -> Figure | None:
 
 def of_series(chosen: pd.DataFrame, keys: Iterable[str]) -> pd.DataFrame:
     """Rows of `errors` of these series, coarse ones first."""
-    names = chosen["method"] + " " + chosen["variant"] + " " + chosen["energy"]
+    names = chosen.method + " " + chosen.variant + " " + chosen.energy
     return chosen[names.isin(keys)].sort_values("resolution")
 
 
@@ -111,16 +111,16 @@ def other_flows(tables: Tables, scene: dict[str, Any]) -> pd.DataFrame:
     """Points that ended in another number of rolls than the grid: no rows of `errors`, and never `steady`."""
     limit = looks.reference(tables, **LAYER)[["ra", "ke", "rolls"]]
     both = looks.rows(tables, "means", **scene).merge(limit, on="ra", suffixes=("", "_grid"))
-    other = both[(both["resolution"].astype(float) < np.inf) & (both["rolls"] != both["rolls_grid"])]
-    return other.assign(error=other["ke"]/other["ke_grid"] - 1, error_err=other["ke_err"]/other["ke_grid"],
+    other = both[(both.resolution.astype(float) < np.inf) & (both.rolls != both.rolls_grid)]
+    return other.assign(error=other.ke/other.ke_grid - 1, error_err=other.ke_err/other.ke_grid,
                         energy="Kp", steady=False)
 
 
 def smoothing(axes: Axes, grid: pd.DataFrame) -> None:
     """1 - K_smoothed/K of the grid's own field: what the weight alone takes away, drawn as a line."""
     if len(grid):
-        taken = 1 - grid["ke_smoothed"]/grid["ke"]
-        axes.plot(grid["rows"], taken, color=KIND["kg"]["color"], marker="", lw=2.5, ls=":",
+        taken = 1 - grid.ke_smoothed/grid.ke
+        axes.plot(grid.rows, taken, color=KIND["kg"]["color"], marker="", lw=2.5, ls=":",
                   label=r"$1 - K_\mathrm{smoothed}/K$: the smoothing alone")
 
 
@@ -130,7 +130,7 @@ def over_rows(axes: Axes, chosen: pd.DataFrame, keys: dict[str, Style],
     for key, style in keys.items():
         series, (method, variant, _) = of_series(chosen, [key]), key.split()
         words = WORDS[key] if key in WORDS else name_of(method, variant)
-        if gone is not None and (lost := gone.loc[gone["variant"] == variant, "resolution"]).any():
+        if gone is not None and (lost := gone.loc[gone.variant == variant, "resolution"]).any():
             words += f" [{', '.join(f'{size:.0f}' for size in lost)} rows: diverged]"
         if len(series):
             powers(axes, series, words, style)
@@ -162,19 +162,19 @@ def falling(error: np.ndarray) -> bool:
 def signed(axes: Axes, series: pd.DataFrame, words: str, style: Style) -> None:
     """|error| over rows, with its interval; filled where the error is positive, open where negative."""
     axes.errorbar([], [], [], label=words, **style | {"lw": 0.8})
-    x, size, err = series["resolution"], series["error"].abs(), series["error_err"]
+    x, size, err = series.resolution, series.error.abs(), series.error_err
     down = np.minimum(err, 0.999*size)       # a logarithmic axis has no room for an interval across zero
-    positive = series["error"] >= 0
+    positive = series.error >= 0
     for sign, face in ((positive, {}), (~positive, OPEN)):
         axes.errorbar(x[sign], size[sign], [down[sign], err[sign]], **style | face | MARKS)
-    looks.cross_out(axes, x, size, series["steady"])
+    looks.cross_out(axes, x, size, series.steady)
 
 
 def finish(axes: Axes, title: str, line: pd.DataFrame) -> None:
     """Logarithmic axes in the range of a line of panels, numbers written out."""
-    size = line["error"].abs()
+    size = line.error.abs()
     axes.set(xscale="log", yscale="log", title=title, xlabel=ROWS, ylim=(0.4*size.min(), 2*size.max()))
     for axis in (axes.xaxis, axes.yaxis):
         numbered(axis, (1, 2, 5))
-    plain_ticks(axes, sorted({*line["resolution"]}))
+    plain_ticks(axes, sorted({*line.resolution}))
     axes.tick_params(labelbottom=True)

@@ -22,7 +22,7 @@ CONTOURS = (("rho", r"density  [$m/\sigma^2$]"), ("T", r"temperature  [$\varepsi
 def run_of(tables: Tables, name: str, **wanted: Any) -> pd.DataFrame:
     """Rows of the finest run nearest to Ra = 10 000, its first seed."""
     run = finest(nearest(rows(tables, name, **wanted)))
-    return run[run["seed"] == run["seed"].min()]
+    return run[run.seed == run.seed.min()]
 
 
 def fig12(tables: Tables) -> Figure | None:
@@ -43,26 +43,26 @@ def fig12(tables: Tables) -> Figure | None:
 
 def fluid(run: pd.DataFrame) -> pd.DataFrame:
     """Particles that move; one in four of many: more arrows are a grey."""
-    moving = run[run["kind"] == "fluid"].sort_values("number")
+    moving = run[run.kind == "fluid"].sort_values("number")
     return moving.iloc[::4] if len(moving) > MANY else moving
 
 
 def heading(run: pd.DataFrame) -> str:
     """How many particles at which Ra."""
-    number = (run["kind"] == "fluid").sum()
+    number = (run.kind == "fluid").sum()
     return f"{'one in four of ' if number > MANY else ''}{number} particles, Ra = {run['ra'].iloc[0]:g}"
 
 
 def arrow_scale(run: pd.DataFrame) -> float:
     """Velocity of an arrow as long as L: arrows of the fastest 1 % are longer than two spacings."""
     at = fluid(run)
-    spacing = (np.ptp(at["x"])*np.ptp(at["y"])/len(at))**0.5
-    return float(np.quantile(np.hypot(at["vx"], at["vy"]), 0.99)/(2*spacing))
+    spacing = (np.ptp(at.x)*np.ptp(at.y)/len(at))**0.5
+    return float(np.quantile(np.hypot(at.vx, at.vy), 0.99)/(2*spacing))
 
 
 def arrows(axes: Axes, at: pd.DataFrame, scale: float) -> None:
     """Velocities."""
-    axes.quiver(at["x"], at["y"], at["vx"], at["vy"], angles="xy", scale_units="xy", scale=scale,
+    axes.quiver(at.x, at.y, at.vx, at.vy, angles="xy", scale_units="xy", scale=scale,
                 color="black", width=0.0015, headwidth=4, headlength=5, headaxislength=4.5)
 
 
@@ -86,7 +86,7 @@ def smoothed(run: pd.DataFrame) -> pd.DataFrame:
 
     Particles behind plates and sides are in the sums, as in a run.
     """
-    half, spacing = half_width(run), 1/float(run["resolution"].iloc[0])
+    half, spacing = half_width(run), 1/float(run.resolution.iloc[0])
     number = min(PLACES, round(1/spacing))
     across, up = np.arange(round(2*half*number)) + 0.5, np.arange(number) + 0.5
     x, y = (q.ravel() for q in np.meshgrid(across/number - half, up/number - 0.5))
@@ -104,7 +104,7 @@ def fig9(tables: Tables) -> Figure | None:
     """
     runs = {"grid": run_of(tables, "fields", **GRID, **LAYER),
             "spam, mean": run_of(tables, "fields", **SPAM, **LAYER)}
-    ras = {ra for run in runs.values() for ra in run["ra"].unique()}
+    ras = {ra for run in runs.values() for ra in run.ra.unique()}
     if len(ras) != 1 or any(run.empty for run in runs.values()):
         return None
     page, all_axes = figure(2, 2, width=4.6, height=2.5, sharex=True, sharey=True)

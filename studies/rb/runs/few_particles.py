@@ -30,7 +30,6 @@ RANGE = 3.0
 R = Polynomial([0, 1])
 #: primitive vectors, as columns
 AXES = {"square": np.eye(2), "hexagonal": np.array([[1.0, 0.5], [0.0, np.sqrt(3)/2]])}
-SITES = (1, 2, 3, 4)        # particles on a site of a lattice
 
 
 class Printed(NamedTuple):
@@ -47,21 +46,16 @@ class Printed(NamedTuple):
     @property
     def integral(self) -> float:
         """Over the plane."""
-        total, begin = 0.0, 0.0
-        for end, piece in self.pieces:
-            disc = (2*np.pi*R*piece).integ()
-            total += disc(end) - disc(begin)
-            begin = end
-        return float(total)
+        ends = [end for end, _ in self.pieces]
+        discs = [(2*np.pi*R*piece).integ() for _, piece in self.pieces]
+        return float(sum(disc(end) - disc(begin) for disc, begin, end in zip(discs, [0.0, *ends], ends)))
 
     def jumps(self, order: int) -> list[float]:
         """Jumps of the derivative of that order at the ends of the pieces, over w(0); at r = 0 the slope."""
-        slopes = [piece.deriv(order) if order else piece for _, piece in self.pieces]
-        slopes.append(Polynomial([0.0]))
-        ends = [end for end, _ in self.pieces]
-        jumps = [slopes[i + 1](end) - slopes[i](end) for i, end in enumerate(ends)]
-        at_zero = [slopes[0](0.0)] if order == 1 else []
-        return [jump/float(self(0.0)) for jump in jumps + at_zero]
+        slopes = [piece.deriv(order) for _, piece in self.pieces]
+        jumps = [after(end) - before(end) for before, after, (end, _) in zip(
+            slopes, [*slopes[1:], Polynomial([0.0])], self.pieces)]
+        return [jump/float(self(0.0)) for jump in jumps + [slopes[0](0.0)]*(order == 1)]
 
 
 LUCY = Printed(((3.0, 5/(9*np.pi)*(1 + R)*(1 - R/3)**3),))
@@ -71,41 +65,35 @@ BOTH = (LUCY, MONAGHAN)
 
 def lattice(kind: str, per_site: float = 1.0, reach: float = 12.0) -> np.ndarray:
     """(2, sites): a lattice of density 1 with so many particles a site, one site at the origin."""
-    axes = AXES[kind]
     n = np.arange(-int(2*reach), int(2*reach) + 1)
-    sites = axes@np.stack(np.meshgrid(n, n)).reshape(2, -1)
-    return sites*np.sqrt(per_site/np.linalg.det(axes))
+    sites = AXES[kind]@np.reshape(np.meshgrid(n, n), (2, -1))
+    return sites*np.sqrt(per_site/np.linalg.det(AXES[kind]))
 
 
 def density(weight: Printed, kind: str, per_site: float = 1.0) -> float:
     """The density sum at a particle of a lattice of density 1."""
-    r = np.hypot(*lattice(kind, per_site))
-    return float(per_site*weight(r).sum())
+    return float(per_site*weight(np.hypot(*lattice(kind, per_site))).sum())
 
 
-def shear_modulus(weight: Printed, kind: str, h: float, angle: float, step: float = 1e-3) -> float:
-    """Shear over bulk modulus of the ideal gas on a lattice turned by an angle, by differences of three sums.
+def largest_modulus(weight: Printed, kind: str, h: float = RANGE, step: float = 1e-3) -> float:
+    """Largest |G/B| of the ideal gas, shear over bulk modulus, sheared along an axis and at 45 degrees.
 
-    At constant area only the sum of the density changes: G = P d2(rho)/d(gamma)^2, B = rho c^2 = 2 P, gamma =
-    2 step.
+    By differences of three sums. At constant area only the sum of the density changes: G = P
+    d2(rho)/d(gamma)^2, B = rho c^2 = 2 P, gamma = 2 step.
     """
-    cos, sin = np.cos(angle), np.sin(angle)
-    turn = np.array([[cos, sin], [-sin, cos]])
-    sums = []
-    for s in (-step, 0.0, step):
-        stretch = np.diag([np.exp(s), np.exp(-s)])
-        sums.append(weight(np.hypot(*(stretch@turn@lattice(kind))), h).sum())
-    return float(np.diff(sums, 2)[0]/step**2/4/2)
-
-
-def largest_modulus(weight: Printed, kind: str, h: float = RANGE) -> float:
-    """Largest |G/B| of shears along an axis and at 45 degrees."""
-    return max(abs(shear_modulus(weight, kind, h, angle)) for angle in (0.0, np.pi/4))
+    moduli = []
+    for angle in (0.0, np.pi/4):
+        cos, sin = np.cos(angle), np.sin(angle)
+        turn = np.array([[cos, sin], [-sin, cos]])
+        stretches = (np.diag([np.exp(s), np.exp(-s)]) for s in (-step, 0.0, step))
+        sums = [weight(np.hypot(*(stretch@turn@lattice(kind))), h).sum() for stretch in stretches]
+        moduli.append(abs(np.diff(sums, 2)[0]/step**2/4/2))
+    return float(max(moduli))
 
 
 def least(weight: Printed, kind: str) -> tuple[float, int]:
     """Least density sum, and so least energy at any pressure, and how many particles a site have it."""
-    return min((density(weight, kind, sites), sites) for sites in SITES)
+    return min((density(weight, kind, sites), sites) for sites in (1, 2, 3, 4))
 
 
 # --- 36 particles ---------------------------------------------------------------------------------
@@ -213,10 +201,9 @@ def not_molecular(step: float = 1e-5) -> float:
     force = rates(MOLECULES, state)[2:4]
     slopes = np.zeros_like(force)
     for at in np.ndindex(force.shape):
-        there, back = state.copy(), state.copy()
-        there[at] += step
-        back[at] -= step
-        slopes[at] = (potential(there) - potential(back))/(2*step)
+        change = np.zeros_like(state)
+        change[at] = step
+        slopes[at] = (potential(state + change) - potential(state - change))/(2*step)
     return float(np.abs(force + slopes).max()/np.abs(force).max())
 
 
@@ -239,21 +226,15 @@ def energy_drift() -> float:
 
 def order(error: Errors, method: Spam, steps: Sequence[int], seeds: Sequence[int] = SEEDS) -> Measured:
     """-d ln error/d ln steps, mean over starts; of as many numbers of steps as there are errors."""
-    orders = []
-    for seed in seeds:
-        errors = error(method, seed, steps)
-        orders.append(-fits.power_law(steps[:len(errors)], errors).slope.value)
-    return stats.over_seeds(orders)
+    errors = [error(method, seed, steps) for seed in seeds]
+    return stats.over_seeds([-fits.power_law(steps[:len(some)], some).slope.value for some in errors])
 
 
 def against_midpoint() -> Measured:
     """Error of Runge-Kutta of order 4, dt = 0.4, over that of order 2 with as many evaluations."""
-    ratios = []
-    for seed in SEEDS:
-        true = end(GAS, seed, SMALL[-1])
-        fourth, second = end(GAS, seed, AS_RUN), end(GAS, seed, 2*AS_RUN, Midpoint)
-        ratios.append(distance(fourth, true)/distance(second, true))
-    return stats.over_seeds(ratios)
+    ends = [(end(GAS, seed, AS_RUN), end(GAS, seed, 2*AS_RUN, Midpoint), end(GAS, seed, SMALL[-1]))
+            for seed in SEEDS]
+    return stats.over_seeds([distance(fourth, true)/distance(second, true) for fourth, second, true in ends])
 
 
 def return_errors(method: Spam, seed: int, steps: Sequence[int]) -> list[float]:
@@ -264,12 +245,10 @@ def return_errors(method: Spam, seed: int, steps: Sequence[int]) -> list[float]:
 
 def returned(time: float = 100.0, steps: int = 400) -> float:
     """Least part of places and velocities that come back to the last bit, in whole numbers, of all starts."""
-    method, parts = replace(MOLECULES, integrator=WholeLeapfrog), []
-    for seed in SEEDS:
-        first = whole(start(MOLECULES, seed))
-        back = march(method, TURN*march(method, first, steps, time), steps, time)
-        parts.append(np.mean(apart(TURN*back, first)[:4] == 0))
-    return float(min(parts))
+    method = replace(MOLECULES, integrator=WholeLeapfrog)
+    starts = [whole(start(MOLECULES, seed)) for seed in SEEDS]
+    ends = [TURN*march(method, TURN*march(method, first, steps, time), steps, time) for first in starts]
+    return float(min(np.mean(apart(last, first)[:4] == 0) for last, first in zip(ends, starts)))
 
 
 def step_errors(method: Spam, seed: int, steps: Sequence[int]) -> list[float]:
