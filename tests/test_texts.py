@@ -103,17 +103,6 @@ def streams(scene: str, quantity: str) -> Measured:
     return row("streams/crossings", "stream", err="high - stream", **where)
 
 
-def onset(*rows: int) -> list[Measured]:
-    """Critical Ra of smooth particles."""
-    return [row("onset/critical_ra", "value", err="err", resolution=n, variant="printed", way="run")
-            for n in rows]
-
-
-def cavity(*Ra: float) -> list[Measured]:
-    return [row("cavity/cavity", "value", method="spectral-boussinesq", quantity="nu", resolution=48, ra=ra)
-            for ra in Ra]
-
-
 def ethersph(what: str) -> list[Measured]:
     """How far from the printed Nu is what is read, what passes as heat."""
     claims = CLAIMS[CLAIMS.index.str.match(f"ethersph-{what}-")]
@@ -122,10 +111,6 @@ def ethersph(what: str) -> list[Measured]:
 
 def hard(case: str, method: str, variant: str) -> Measured:
     return row("hardcases/map", "measured", case=case, method=method, variant=variant)
-
-
-def debye(waves: str) -> Measured:
-    return row("lattices/debye", waves, weight="Lucy", lattice="hexagonal", h=2.5)
 
 
 K, Kg, Nu = (partial(error, energy) for energy in ("Kp", "Kg", "Nu"))
