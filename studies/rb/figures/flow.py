@@ -34,8 +34,8 @@ def fig12(tables: Tables) -> Figure | None:
     scale, half, field = arrow_scale(run), half_width(run), smoothed(run)
     arrows(upper, fluid(run), scale)
     arrows(lower, field, scale)
-    box(upper, half, f"{heading(run)}, at one instant    [KHP95, Fig. 12]", scale)
-    box(lower, half, f"the same instant, smoothed: $\\langle v \\rangle$ at {len(field)} places", scale)
+    box(upper, half, f"Particles tremble about the flow: {heading(run)}    [KHP95, Fig. 12]", scale)
+    box(lower, half, f"this flow: velocities smoothed, $\\langle v \\rangle$, at {len(field)} places", scale)
     for axes in (upper, lower):
         axes.set_ylim(-0.54, 0.54)
     return page
@@ -118,7 +118,8 @@ def fig9(tables: Tables) -> Figure | None:
         page.colorbar(drawn, ax=line, label=words, shrink=0.9)
     for axes in all_axes[1]:
         axes.set_xlabel("$x/L$")
-    page.suptitle(f"Density and temperature, Ra = {ras.pop():g}, same levels    [KHP95, Fig. 9]")
+    page.suptitle("Particles come near the grid; their density is farthest off at the plates\n"
+                  f"same levels, Ra = {ras.pop():g}    [KHP95, Fig. 9]")
     return page
 
 
