@@ -97,9 +97,12 @@ def test_mean_pressure_keeps_a_contact_that_moves_and_dissipation_one_at_rest():
 
 @pytest.mark.parametrize("name", ["fixed-lattice-entropy-stable", "fixed-jittered-delaunay-entropy-stable"])
 def test_no_start_is_too_violent_and_sums_are_kept(name):
-    """Also through limits, at images mass alone, and without weight momentum along plates and energy."""
-    layer = replace(ready(RayleighBenard(ra=1e4, L=8.0), name).method, law=ConstEta(0, 0))
-    for method, kept in ((layer, [0]), (replace(layer, g=0.0), [0, 1, 3]), (closed(), [0, 1, 2, 3])):
+    """Also through limits, at images mass alone, also where the fluid sticks; and without weight and friction
+    momentum along plates and energy."""
+    sticky = replace(ready(RayleighBenard(ra=1e4, L=8.0), name).method, law=ConstEta(1e-3, 1e-3))
+    layer = replace(sticky, law=ConstEta(0, 0))
+    free = replace(layer, g=0.0)
+    for method, kept in ((sticky, [0]), (layer, [0]), (free, [0, 1, 3]), (closed(), [0, 1, 2, 3])):
         state = violent(method)
         change = over_a_step_too_long(method, state)
         assert np.abs(change[kept]).max() < 1e-14
