@@ -1,5 +1,6 @@
 """A flux that survives: what it keeps on any closed edges, what its dissipation and its limits may not do."""
 from dataclasses import replace
+from functools import partial
 from types import SimpleNamespace
 
 import numpy as np
@@ -24,8 +25,8 @@ from particles.integral.points import random
 from particles.integral.triangulation import delaunay
 from particles.threads import Threads
 from studies.build import SCENES, ready
-from studies.hardcases.robust import PROBLEMS, Strip
-from studies.hardcases.survival import followed
+from studies.hardcases.impacts import PROBLEMS, Strip
+from studies.hardcases.runs import copied, followed
 
 GAS, POINTS = IdealGas(2.5), random((12, 10), 0.4, 1)
 EX, EC, M = (Logarithmic(GAS), Pressure(GAS)), (Logarithmic(GAS), MeanPressure(GAS)), Dissipation(GAS)
@@ -156,9 +157,9 @@ def test_the_limited_mean_leaves_nothing_of_a_line_all_of_an_extremum_and_the_sa
 def test_a_shock_leaves_no_train_of_waves_behind():
     """A tenth of the variation of v is what the map calls ringing; bends alone left 0.15 here."""
     strip = Strip(problem=PROBLEMS["Sod"], cells=50)
-    made, seen = ready(strip, "fixed-lattice-entropy-stable"), []
-    followed(made, strip.time, 1, lambda at: seen.append(at._make(map(np.copy, at))))
-    assert abs(strip.seen(*seen)["wiggles"]) < 0.1
+    made = ready(strip, "fixed-lattice-entropy-stable")
+    course = followed(made, strip.time, 1, partial(copied, strip))
+    assert abs(strip.seen(*course.seen)["wiggles"]) < 0.1
 
 
 def test_a_vortex_is_not_taken_for_a_shock():

@@ -1,4 +1,6 @@
 """The map of hard cases: exact numbers, what counts as flow, and the rules that name an outcome."""
+from functools import partial
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -9,11 +11,11 @@ from continuum.exact.shear import growing_wave
 from particles.fields import Fields, kinetic_energy
 from studies.build.unguarded import bisected
 from studies.hardcases import extremes
-from studies.hardcases.cases import PROBED, TILED, cases
+from studies.hardcases.cases import TILED, cases
 from studies.hardcases.claims import SQUARES
 from studies.hardcases.derive import derive
-from studies.hardcases.extremes import BOXES, LAYERS, SHEAR_FLOW, SITUATIONS, SOUND, VORTEX, rarefied
-from studies.hardcases.survival import PROBES, SAMPLES, Hard, Probe, energies, flow, followed
+from studies.hardcases.extremes import BOXES, LAYERS, SHEAR_FLOW, SITUATIONS, SOUND, VORTEX, flow, rarefied
+from studies.hardcases.runs import SAMPLES, Hard, followed
 from studies.kit.claim import judged
 from studies.kit.table import Tables
 
@@ -51,13 +53,16 @@ def test_flows_have_no_divergence(scene):
     assert np.abs(VORTEX.flow(x, np.full(20, 8.0))[1]).max() < 1e-15, "it passes through a wall"
 
 
+def hard(table: str, case: str) -> list[Hard]:
+    """Runs of a case, but for those of ranges below 1.2, which are refused, and of grids between plates."""
+    return [one for one in cases("paper") if type(one) is Hard and one.table == table
+            and one.columns["case"] == case and "0.9" not in one.columns["method"]]
+
+
 @pytest.mark.parametrize("case", SITUATIONS)
 def test_methods_start_with_the_flow_and_mass_of_the_scene(case):
-    """Ranges below 1.2 are refused."""
-    scene = SITUATIONS[case].scene
-    hard = (one for one in cases("paper") if isinstance(one, Hard))
-    first = next(one for one in hard if one.case == case and "0.9" not in one.method)
-    ready = first.variant.ready(first.scene)
+    first, *_ = hard("hard_runs", case)
+    scene, ready = first.scene, first.entrant.ready(first.scene)
     at = ready.method.fields(ready.start)
     mass = 16*8 if case == "vacuum" else scene.width*scene.L
     assert (at.rho*at.V).sum() == pytest.approx(mass, rel=0.02) and ready.dt > 0
@@ -67,8 +72,8 @@ def test_methods_start_with_the_flow_and_mass_of_the_scene(case):
 
 def test_nobody_holds_points_at_plates_where_nothing_slows_the_flow_down():
     """`decisive` compares the vortex with its start: rows that stick would slow it down without viscosity."""
-    hard = [one for one in cases("paper") if isinstance(one, Hard) and one.case == "zero viscosity"]
-    held = [getattr(one.variant.ready(one.scene).method, "held", None) for one in hard]
+    methods = [one.entrant.ready(one.scene).method for one in hard("hard_runs", "zero viscosity")]
+    held = [getattr(method, "held", None) for method in methods]
     assert [one for one in held if one is not None] and all(one is None or not len(one.which) for one in held)
 
 
@@ -97,19 +102,19 @@ def test_a_tube_that_does_not_ring_may_still_be_off(v_exact, wanted):
 def test_the_grid_goes_round_a_box_without_plates():
     """A piece of a turn keeps mass and energy; a vacuum, even of a thousandth, ends the run."""
     ready, (vacuum, time) = TILED.ready(VORTEX), BOXES["vacuum"]
-    seen, reached, _ = followed(ready, 8.0, 2, energies(VORTEX))
-    k, _, mass = seen.T
+    seen, reached, _ = followed(ready, 8.0, 2, partial(extremes.seen, VORTEX))
+    k, _, mass = np.transpose(seen)
     assert reached == 1 and mass == pytest.approx(256, rel=1e-14)
     # the start has no pressure of its vortex: sound takes the square of the Mach number 0.07
     assert k[-1] == pytest.approx(k[0], rel=0.005)
-    assert followed(TILED.ready(vacuum), time, SAMPLES, energies(vacuum)).reached < 1
+    assert followed(TILED.ready(vacuum), time, SAMPLES, partial(extremes.seen, vacuum)).reached < 1
 
 
 @pytest.mark.parametrize("case, method, expected, within", [
     ("alternating densities", "fixed-lattice", 1.0, 1e-6),  # no gradient sees the chessboard
     ("alternating densities", "moving-delaunay", 0.0, 0.1)])
 def test_numbers_that_are_known_are_what_is_asked(case, method, expected, within):
-    probe = Probe(case=case, method=method, variant=PROBED[case][method], question=PROBES[case])
+    probe, = (one for one in hard("probes", case) if one.columns["method"] == method)
     row, = rows_of(probe, "probes")
     assert row["measured"] == pytest.approx(expected, abs=within) and row["reached"] == 1
 

@@ -5,27 +5,24 @@ import pytest
 
 from continuum.exact.blast import blast
 from continuum.exact.riemann import GasState, density, middle, shock_speed, solution
-from continuum.fluid import ConstEta
 from particles.fields import Fields
 from particles.integral.bodies import with_disc
 from particles.integral.points import lattice
+from studies.build import variant
 from studies.build.answers import with_rows
 from studies.hardcases import high_ra, printed
-from studies.hardcases.cases import IN_LAYERS, IN_TUBES, RANDOM
+from studies.hardcases.cases import IN_LAYERS, RANDOM, sod, trial
 from studies.hardcases.columns import COLUMNS
 from studies.hardcases.derive import derive
 from studies.hardcases.high_ra import no_report
-from studies.hardcases.impacts import HOT, pitot
+from studies.hardcases.impacts import HOT, Strip, pitot
 from studies.hardcases.printed import divide, gases, impulse, ripple
-from studies.hardcases.robust import Strip
-from studies.hardcases.trials import prepared
 from studies.hardcases.tubes import (
     DENSE,
     EOS,
     FINE,
     GAMMA,
     THIN,
-    Seen,
     centres,
     exact,
     march,
@@ -37,12 +34,6 @@ from studies.hardcases.tubes import (
 from studies.kit.table import Tables
 
 SHORT = 12
-
-
-def seen(method: str, eta: float) -> Seen:
-    """A short tube by a method."""
-    run, variant = IN_TUBES[method]
-    return run(variant, SHORT, ConstEta(eta, eta), 1, 0.5, no_report)
 
 
 def test_riemann_solution_of_sod_is_the_published_one():
@@ -102,10 +93,12 @@ def test_impulse_by_hand():
                                [2*theory.meets, 2*theory.back, 2*theory.amplitude, theory.growth])
 
 
-@pytest.mark.parametrize("method", IN_TUBES)
+@pytest.mark.parametrize("method", IN_LAYERS)
 def test_every_method_has_sods_waves_and_the_gas_that_it_began_with(method):
     """Viscous fields of a fine grid to a few hundredths; mass and energy of both gases to round-off."""
-    fields, reached = seen(method, 0.5)
+    tube = sod(method, 0.5, SHORT)
+    ready = tube.entrant.ready(tube.scene, 1)
+    (fields,), reached, _ = tube.course(ready._replace(dt=ready.dt/2), no_report)
     assert reached == 1
     errors = np.abs(fields - viscous(SHORT, 0.5)).mean(axis=1)
     np.testing.assert_allclose(errors, 0, atol=0.03)
@@ -218,9 +211,8 @@ def test_the_front_of_a_blast_is_read_off_its_energy():
 @pytest.mark.parametrize("method", ["grid", "fixed-lattice-entropy-stable", "moving-delaunay", "spam"])
 def test_steps_of_trials_are_those_of_the_fastest_flow_to_come(method):
     """Noh's start is cold: its own limit would be hundreds of times longer."""
-    scene = with_rows(COLUMNS["Noh"].scene, 16)
-    whole, half = (prepared(method, scene, 1, step).dt for step in (1.0, 0.5))
-    assert 0.02 < whole < 1.0 and half == whole/2
+    case = trial("Noh", method, variant(method), 16)
+    assert 0.02 < case.entrant.ready(case.scene, 1).dt < 1.0
 
 
 def test_one_ended_run_decides_its_size():

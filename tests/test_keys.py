@@ -9,6 +9,7 @@ import pytest
 
 from continuum.jit import generic
 from studies.cost import STUDY as cost
+from studies.hardcases import STUDY as hardcases
 from studies.kit.case import Case, key_of, starts
 from studies.kit.key import CODE, PACKAGES, ROOT, Code
 from studies.kit.syntax import Place, parse
@@ -113,6 +114,17 @@ def test_friction_along_edges_is_reached_by_points_and_not_by_smooth_particles(c
     names = {type(case).__name__ for case in cases if reached(case, *friction)}
     assert {"VortexDecay", "LayerDrift"} <= names
     assert not names & {"SpamRun", "SpamGrowth", "CompressibleSteady"}
+
+
+def test_hard_cases_depend_on_no_method_besides_their_own(copy):
+    """One case a table and method: they hold definitions, and look up no names."""
+    one = {(type(case), getattr(case, "table", ""), repr(getattr(case, "entrant", ""))): case
+           for case in hardcases.cases("paper")}
+    for file, first, new in METHODS:
+        edit(copy, file, first, f"{new}, {first}")
+    assert len(one) > 80 and not changed(one.values(), copy)
+    for file, first, new in METHODS:
+        edit(copy, file, f"{new}, {first}", first)
 
 
 def test_a_flux_that_survives_is_reached_by_methods_that_list_it_alone():

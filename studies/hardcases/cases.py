@@ -1,51 +1,51 @@
 """Which methods meet which case, by size: a method is a line, a case is a line."""
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import product
 from typing import Any
 
-from continuum.fluid import DenseFluid, IdealGas
+from continuum.fluid import ConstEta, DenseFluid, IdealGas
 from particles.run import STUDIES
 from particles.weights import Lucy, Monaghan
-from studies.build import variant, variants
-from studies.build.spam import PRINTED
-from studies.hardcases import high_ra, printed, robust, trials, tubes
-from studies.hardcases.columns import COLUMNS
-from studies.hardcases.extremes import LAYERS, ROWS, SITUATIONS, Smooth, Tiled, WithoutPlates, falls
-from studies.hardcases.high_ra import FineGrid, HighRa, Rippled
+from studies.build import SCENES, variant, variants
+from studies.build.answers import duration, with_rows
+from studies.build.spam import PRINTED, Variant
+from studies.hardcases import columns, extremes, high_ra, impacts, printed, runs, tubes
+from studies.hardcases.columns import BLENDED, CARRIED, COLUMNS, EDGES, HELD, JITTERED, LATTICE, PAIRS, STABLE
+from studies.hardcases.extremes import LAYERS, PROBES, ROWS, SITUATIONS, OnGrid, falls
+from studies.hardcases.high_ra import FineGrid, HighRa
 from studies.hardcases.printed import Interface, Square
-from studies.hardcases.robust import STABLE
-from studies.hardcases.survival import GRID, PROBES, Hard, HardOnGrid, Probe
-from studies.hardcases.tubes import BARELY, ETAS, STEPS, MethodTube
+from studies.hardcases.runs import GRID, By, Hard, Question, without_plates
+from studies.hardcases.tubes import BARELY, ETAS, STEPS, Profiled, Tube
 from studies.kit.case import Case
 
-LATTICE, JITTERED = "fixed-lattice", "fixed-jittered-delaunay"
-CARRIED, MOVING = "moving-delaunay", "moving"
+MOVING = "moving"
 NESTED = "fixed-lattice-nested-only"
 RANDOM = (JITTERED, CARRIED, MOVING)    # whose points lie as a seed says
 CHEAP = (LATTICE, JITTERED, *STABLE, CARRIED)       # enough to be tried with 32 rows
-TILED = Tiled(variant(GRID))
+TILED = By(runs.tiled, variant(GRID))
 
-#: name -> (what runs it, variant)
-Runners = dict[str, tuple[Any, Any]]
-#: tubes
-IN_TUBES: Runners = {GRID: (tubes.grid, variant(GRID))} | {
-    name: (tubes.points, variant(name)) for name in (LATTICE, JITTERED, CARRIED, MOVING)}
-#: the highest Ra, likewise
-IN_LAYERS: Runners = {
+#: name -> what takes part
+Entrants = dict[str, Any]
+#: tubes: who, and what is seen at the end
+IN_TUBES: dict[str, tuple[Any, Callable]] = {
+    GRID: (By(tubes.cells, variant(GRID)), tubes.in_cells),
+    "spam": (By(printed.in_tubes, Lucy), printed.smoothed),
+    **{name: (By(runs.at_limit, variant(name)), tubes.binned) for name in (LATTICE, *RANDOM, *STABLE)}}
+#: the highest Ra: what tries it
+IN_LAYERS: dict[str, tuple[Any, Any]] = {
     GRID: (high_ra.on_grid, ROWS),
-    LATTICE: (high_ra.on_points, Rippled(variant(LATTICE))),
-    JITTERED: (high_ra.on_points, Rippled(variant(JITTERED))),
+    **{name: (high_ra.on_points, By(high_ra.rippled, variant(name))) for name in (LATTICE, JITTERED)},
     **{name: (high_ra.on_points, variant(name)) for name in (CARRIED, MOVING)},
 }
 
 
-def smooth(*names: str) -> dict[str, Any]:
+def smooth(*names: str) -> Entrants:
     """Smooth particles by their names."""
-    return {name: Smooth(chosen) for name, chosen in variants(*names).items()}
+    return {name: By(runs.smooth, chosen) for name, chosen in variants(*names).items()}
 
 
-#: the map: name -> what has ready(scene)
+#: the map
 SPAM = smooth("spam", "spam-wendland-c2", "spam-corrected")
 POINTS = variants(LATTICE, NESTED, JITTERED, *STABLE)
 MOVE = variants("moving-literal", "moving-constant-mass", MOVING)
@@ -53,29 +53,37 @@ TRIANGLES = variants(CARRIED)
 USUAL = SPAM | POINTS | MOVE | TRIANGLES
 #: of the vortex and the strip: held rows stick even without viscosity, as the plates of smooth particles do
 NO_PLATES = {**USUAL, GRID: TILED,
-             **{name: WithoutPlates(USUAL[name]) for name in (*SPAM, CARRIED, STABLE[-1])}}
+             **{name: By(without_plates, USUAL[name]) for name in (*SPAM, CARRIED, STABLE[-1])}}
 #: case -> who takes part in place of the usual ones
-TAKES: dict[str, dict[str, Any]] = {
+TAKES: dict[str, Entrants] = {
     **dict.fromkeys(("Ra 1e7", "Ra 1e8"), variants(*CHEAP, MOVING) | smooth("spam", "spam-corrected")),
     "disordered points": variants(LATTICE, JITTERED, *STABLE, "fixed-random-delaunay", "fixed-jittered-plain",
                                   "fixed-jittered-closed", CARRIED),
     "narrow weight": variants(LATTICE)
-    | {f"spam-range-{h:g}": Smooth(PRINTED._replace(h=h)) for h in (0.9, 1.2, 1.5, 2.0)}
+    | {f"spam-range-{h:g}": By(runs.smooth, PRINTED._replace(h=h)) for h in (0.9, 1.2, 1.5, 2.0)}
     | {f"fixed-lattice-h{h:g}": variant(LATTICE)._replace(h=h) for h in (0.9, 1.2, 1.5)},
     "zero viscosity": NO_PLATES,
     "vacuum": NO_PLATES,
     "wall corner": SPAM | TRIANGLES | variants(LATTICE, JITTERED, *STABLE)
     | smooth("spam-walls-odd", "spam-walls-own-pressure", "spam-direct")
-    | {"spam-no-walls": WithoutPlates(Smooth(PRINTED))},
+    | {"spam-no-walls": By(without_plates, By(runs.smooth, PRINTED))},
     "long rest": variants(LATTICE, JITTERED, CARRIED),
     "a million points": {name: NO_PLATES[name] for name in (GRID, "spam")} | TRIANGLES,
 }
-
-
 #: case -> who is asked for a number in it: densities that alternate no smooth particle has, and no node of
 #: the grid sees
-PROBED = dict.fromkeys(PROBES, USUAL | {GRID: TILED})
-PROBED["alternating densities"] = variants(LATTICE, JITTERED, *STABLE, CARRIED, MOVING)
+PROBED = {"shear layer": USUAL | {GRID: TILED},
+          "alternating densities": variants(LATTICE, JITTERED, *STABLE, CARRIED, MOVING)}
+#: whose answer is known, without viscosity: of today's smooth particles the one that is consistent
+TRIED = (GRID, LATTICE, JITTERED, CARRIED, MOVING, "spam", "spam-corrected", *STABLE)
+#: method, case -> more sizes
+LARGER = {**{(name, "Sod"): (200,) for name in STABLE}, (STABLE[0], "Sod"): (200, 400),
+          (STABLE[0], "Mach 10"): (400,), (HELD, "Mach 3 body"): (192,),
+          **{(name, "shocked ripple"): (800,) for name in (STABLE[0], BLENDED)}}
+ROOMY = 2*tubes.HEIGHT  # where gases part, points that move are three spacings apart, and reach half of that
+#: smooth flows: scene, rows, edges; convection of fixed irregular points would take a quarter of an hour
+FLOWS = (("rayleigh-benard", (48,), EDGES[:1]), ("rayleigh-benard", (25,), EDGES[2:]),
+         ("taylor-green", (32, 64), EDGES), ("sound", (32,), EDGES))
 
 #: layers that are tried with 32 rows, too
 TALL = ("Ra 1e5", "Ra 1e6", "Ra 1e7", "Ra 1e8", "Prandtl 0.01", "Prandtl 100", "high pressure")
@@ -101,9 +109,9 @@ def quick() -> Iterator[Case]:
     yield from method_tubes((12, 15, 18), 1)
     yield Interface(scale=0.5)
     scene, time = SITUATIONS["Prandtl 100"]
-    yield Hard(case="Prandtl 100", method=LATTICE, variant=variant(LATTICE), scene=scene, time=time/10)
+    yield survival("Prandtl 100", LATTICE, variant(LATTICE), scene, time/10)
     for method in (LATTICE, STABLE[0]):
-        yield trials.Trial(case="Toro 2", scene=COLUMNS["Toro 2"].scene, method=method, rows=20)
+        yield trial("Toro 2", method, variant(method), 20)
 
 
 def paper() -> Iterator[Case]:
@@ -114,62 +122,127 @@ def paper() -> Iterator[Case]:
     yield from smooth_tubes(LENGTHS, (0.0, 0.5), range(1, 4))
     yield from smooth_tubes(LENGTHS[-1:], (0.5,), range(4, MORE_SEEDS + 1))
     yield from method_tubes(LENGTHS[:5], 3)
-    attempt, moving = IN_LAYERS[MOVING]
     for seed in range(4, MORE_MOVING + 1):
-        yield MethodTube(method=MOVING, tube=tubes.points, variant=moving, eta=max(ETAS), L=96, seed=seed)
-    for seed in range(4, MORE_STARTS + 1):
-        yield HighRa(method=MOVING, attempt=attempt, variant=moving, seed=seed)
+        yield sod(MOVING, max(ETAS), 96, seed)
     for method, eta, L in product(STABLE, ETAS, (48, 96)):      # whose steps are as short as they need anyway
-        yield MethodTube(method=method, tube=tubes.points, variant=variant(method), eta=eta, L=L)
+        yield sod(method, eta, L)
     for scale, steep, last in RIPPLES:
-        for seed in range(1, last + 1):
-            yield Interface(scale=scale, steep=steep, seed=seed)
-    yield from highest()
-    yield from hard()
-    yield from robust.cases()
-    yield from trials.cases()
+        yield from (Interface(scale=scale, steep=steep, seed=seed) for seed in range(1, last + 1))
+    yield from (*highest(), *hard(), *flows(), *trials())
+
+
+# --- Sod's tube ---------------------------------------------------------------------------------------------
+
+def sod(method: str, eta: float, L: int, seed: int = 1, step: float = STEPS[0],
+        kind: type[Tube] = Tube) -> Tube:
+    """By one method. L : half of its length, spacings. step : over the limit at the start."""
+    entrant, look = IN_TUBES[method]
+    scene = tubes.Tubes(half=L, law=ConstEta(eta, eta))
+    of_entrant = 1.0 if method == "spam" else step
+    return kind(table="method_tubes", entrant=entrant, scene=scene, time=scene.time,
+                question=Question(look, tubes.sods_row),
+                columns={"method": method, "eta": eta, "step": step, "L": L, "seed": seed},
+                seed=seed, step=of_entrant)
+
+
+def kept(seed: int, L: int, longest: int) -> type[Tube]:
+    """Profiles are of the first seed of the longest tube."""
+    return Profiled if (seed, L) == (1, longest) else Tube
 
 
 def smooth_tubes(lengths: Sequence[int], etas: Sequence[float], seeds: Iterable[int]) -> Iterator[Case]:
-    """Smooth particles; profiles of the longest."""
+    """Smooth particles."""
     for L, eta, seed in product(lengths, etas, seeds):
-        yield MethodTube(method="spam", tube=printed.smooth, variant=Lucy, eta=eta, L=L, seed=seed,
-                         step=STUDIES, keep=L == max(lengths) and seed == 1)
+        yield sod("spam", eta, L, seed, STUDIES, kept(seed, L, max(lengths)))
 
 
 def method_tubes(lengths: Sequence[int], seeds: int) -> Iterator[Case]:
     """All methods, viscosities, lengths; several seeds of disordered points in the most viscous gas, and
     of the longest tube that may ring.
     """
-    for (method, (tube, chosen)), eta, step, L in product(IN_TUBES.items(), ETAS, tubes.STEPS, lengths):
+    for method, eta, step, L in product((GRID, LATTICE, *RANDOM), ETAS, STEPS, lengths):
         several = eta == max(ETAS) or (eta, L, step) == (BARELY, max(lengths), max(STEPS))
         last = seeds if method in RANDOM and several else 1
         for seed in range(1, last + 1):
-            yield MethodTube(method=method, tube=tube, variant=chosen, eta=eta, L=L, seed=seed, step=step,
-                             keep=L == max(lengths) and seed == 1)
+            yield sod(method, eta, L, seed, step, kept(seed, L, max(lengths)))
 
+
+# --- the highest Ra -----------------------------------------------------------------------------------------
 
 def highest() -> Iterator[Case]:
-    """Five starts each, three of the moving points, which cost most; `paper` has more."""
+    """Five starts each; of moving points, which cost most, three in short steps, more in usual ones."""
     yield FineGrid()
     for (method, (attempt, chosen)), step in product(IN_LAYERS.items(), high_ra.STEPS):
-        for seed in range(1, 4 if method == MOVING else 6):
+        moving = MORE_STARTS if step == high_ra.STEPS[0] else 3
+        for seed in range(1, 1 + (moving if method == MOVING else 5)):
             yield HighRa(method=method, attempt=attempt, variant=chosen, seed=seed, step=step)
+
+
+# --- the map ------------------------------------------------------------------------------------------------
+
+def survival(case: str, method: str, entrant: Any, scene: Any, time: float) -> Hard:
+    """Of a method in a case."""
+    return Hard(table="hard_runs", columns={"case": case, "method": method, "rows": round(scene.L)},
+                entrant=entrant, scene=scene, time=time, question=extremes.SURVIVAL)
 
 
 def hard() -> Iterator[Case]:
     """Layers and boxes, in a corner nothing moves but for round-off; numbers that are known."""
     for case, (scene, time) in SITUATIONS.items():
         for rows in ON_GRIDS.get(case, ()):
-            yield HardOnGrid(case=case, scene=scene, time=time, rows=rows)
-        for method, chosen in TAKES.get(case, USUAL).items():
-            yield Hard(case=case, method=method, variant=chosen, scene=scene, time=time)
+            yield OnGrid(table="hard_runs", columns={"case": case, "method": GRID, "rows": rows},
+                         entrant=rows, scene=scene, time=time, question=extremes.SURVIVAL)
+        for method, entrant in TAKES.get(case, USUAL).items():
+            yield survival(case, method, entrant, scene, time)
     for case in TALL:
         small, time = SITUATIONS[case]
         scene = replace(small, L=2.0*ROWS)
         later = time*falls(scene, 1.0)/falls(small, 1.0)
-        for method, chosen in variants(*CHEAP).items():
-            yield Hard(case=case, method=method, variant=chosen, scene=scene, time=later)
-    for case, takes in PROBED.items():
-        for method, chosen in takes.items():
-            yield Probe(case=case, method=method, variant=chosen, question=PROBES[case])
+        yield from (survival(case, name, chosen, scene, later) for name, chosen in variants(*CHEAP).items())
+    for case, (scene, time, question, _) in PROBES.items():
+        for method, entrant in PROBED[case].items():
+            yield Hard(table="probes", columns={"case": case, "method": method},
+                       entrant=By(without_plates, entrant), scene=scene, time=time, question=question)
+
+
+def flows() -> Iterator[Case]:
+    """Pairs in smooth flows; both pressures."""
+    for scene, rows, names in FLOWS:
+        for count, name in product(rows, names):
+            yield from (flow(method, scene, count) for method in (name, PAIRS[name]))
+    for count, name in product((16, 24), (STABLE[0], BLENDED)):
+        yield flow(name, "rayleigh-benard", count)
+
+
+def flow(method: str, name: str, rows: int) -> Hard:
+    """Of a method in a smooth flow."""
+    scene = SCENES[name](rows)
+    times, unit = duration(scene)
+    return Hard(table="smooth_flows", columns={"scene": name, "method": method, "rows": rows},
+                entrant=variant(method), scene=scene, time=times*unit, question=columns.SMOOTHNESS)
+
+
+def trials() -> Iterator[Case]:
+    """Starts and steps at the smaller size, one each at others."""
+    for case, column in COLUMNS.items():
+        for method, chosen in (column.only or variants(*TRIED)).items():
+            small, *large = *column.sizes, *LARGER.get((method, case), ())
+            chance = not column.only and "lattice" not in method and method != GRID
+            for seed in (1, 2, 3)[:3 if chance else 1]:
+                yield trial(case, method, chosen, small, seed=seed)
+            if not column.only:
+                yield trial(case, method, chosen, small, step=0.5)
+            yield from (trial(case, method, chosen, rows) for rows in large)
+
+
+def trial(case: str, method: str, chosen: Any, rows: int, seed: int = 1, step: float = 1.0) -> Hard:
+    """Of a method in a case whose answer is known. step : over the usual one."""
+    scene = COLUMNS[case].scene
+    if method == STABLE[-1] and isinstance(scene, impacts.Strip):
+        scene = replace(scene, L=ROOMY)
+    scene = with_rows(scene, rows)
+    way = runs.of_one_mass if isinstance(chosen, Variant) else runs.hurried
+    question = columns.SWITCHING if "entropy-stable" in method else columns.AT_END
+    return Hard(table="trials", entrant=By(way, chosen), scene=scene, time=scene.time, question=question,
+                columns={"case": case, "method": method, "rows": rows, "seed": seed, "step": step},
+                seed=seed, step=step)

@@ -5,8 +5,10 @@ is measured of the fields at the start and then. Lengths in spacings, so that a 
 that of its size: waves are so many spacings off, a flow keeps a part of itself. What is allowed was fixed
 before the runs, of waves with the errors of two methods at 100 spacings known.
 """
+from collections.abc import Mapping
 from dataclasses import dataclass
 from math import pi
+from types import MappingProxyType
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
@@ -16,13 +18,23 @@ from continuum.exact.blast import blast
 from continuum.exact.shear import growing_wave, layer_with_wave
 from continuum.fluid import ConstEta, IdealGas
 from particles.fields import Fields, kinetic_energy
+from particles.integral.positive import switched
+from studies.build import variants
+from studies.build.answers import answer
 from studies.build.scenes import SOUND, Start, TaylorGreen
 from studies.build.stable import BODIES
 from studies.hardcases.extremes import BEGIN, SPEED, U
-from studies.hardcases.impacts import Bow, Frictionless, Ripple, radii
-from studies.hardcases.robust import BLENDED, EDGES, PROBLEMS, STABLE, Strip
+from studies.hardcases.impacts import PROBLEMS, Bow, Frictionless, Ripple, Strip, radii
+from studies.hardcases.runs import GRID, Course, Question, Row, copied, fate
 from studies.hardcases.tubes import EOS, GAMMA
 
+#: methods that have the flux that survives, too
+EDGES = LATTICE, JITTERED, CARRIED = "fixed-lattice", "fixed-jittered-delaunay", "moving-delaunay"
+PAIRS = {name: f"{name}-entropy-stable" for name in EDGES}
+STABLE = tuple(PAIRS.values())
+BLENDED = f"{LATTICE}-entropy-stable-blended"
+#: points on plates, or on a body
+HELD = "fixed-jittered-plates-entropy-stable"
 COLD = 1e-6         # of what is as good as no temperature
 
 
@@ -111,10 +123,7 @@ class Gresho(Frictionless):
 class KelvinHelmholtz(Frictionless):
     """Waves on u = U sin ky for ten growth times, until they have broken: K stays, but for Mach squared."""
     fastest: ClassVar[float] = SOUND + U
-
-    @property
-    def width(self) -> int:  # type: ignore[override]
-        return 2*self.L
+    wide: ClassVar[int] = 2
 
     @property
     def time(self) -> float:
@@ -126,7 +135,7 @@ class KelvinHelmholtz(Frictionless):
         return one, layer_with_wave(x, U, 2*pi/self.L, BEGIN), one
 
     def seen(self, first: Fields, at: Fields) -> dict[str, float]:
-        return {"measured": kinetic_energy(at)/kinetic_energy(first)}
+        return left(first, at)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -142,7 +151,12 @@ class Turns(TaylorGreen):
         return self.turns*self.L/self.speed
 
     def seen(self, first: Fields, at: Fields) -> dict[str, float]:
-        return {"measured": kinetic_energy(at)/kinetic_energy(first)}
+        return left(first, at)
+
+
+def left(first: Fields, at: Fields) -> dict[str, float]:
+    """Of K."""
+    return {"measured": kinetic_energy(at)/kinetic_energy(first)}
 
 
 class Column(NamedTuple):
@@ -156,7 +170,7 @@ class Column(NamedTuple):
     expected: float
     within: float
     because: str
-    only: tuple[str, ...] = ()
+    only: Mapping[str, Any] = MappingProxyType({})
 
     def right(self, value: float) -> bool:
         """Is a value what it should be?"""
@@ -169,17 +183,64 @@ WAVES = OFF, 0.0, 4.0, ("a wave over w spacings costs w/4 of its jump: a shock o
 FRONT = OFF, 0.0, 1.0, "a shock is two spacings thin at best: half of that to either side"
 A_TENTH = "a tenth, which separates right from wrong on all of the map"
 FLOW = LEFT, 1.0, 0.1, A_TENTH
-#: who turns a hundred times
-ONCE = tuple(dict.fromkeys(("grid", *EDGES, "moving-delaunay", *STABLE)))
 COLUMNS = {name: Column(Strip(problem=problem, cells=50), (50, 100), *WAVES)
            for name, problem in PROBLEMS.items()} | {
     "Sedov": Column(Sedov(L=48), (48, 96), *FRONT),
     "Noh": Column(Noh(L=48), (48, 96), *FRONT),
     "Gresho": Column(Gresho(L=24), (24, 48), *FLOW),
     "Kelvin-Helmholtz": Column(KelvinHelmholtz(L=16), (16, 32), *FLOW),
-    "100 turns": Column(Turns(L=16), (16,), *FLOW, ONCE),
-    "800 turns": Column(Turns(L=16, turns=800.0), (16,), *FLOW, STABLE[:2]),
-    "Mach 3 body": Column(Bow(L=48), (48, 96), "P/exact", 1.0, 0.1, A_TENTH, tuple(BODIES)),
+    "100 turns": Column(Turns(L=16), (16,), *FLOW, variants(GRID, *EDGES, *STABLE)),
+    "800 turns": Column(Turns(L=16, turns=800.0), (16,), *FLOW, variants(*STABLE[:2])),
+    "Mach 3 body": Column(Bow(L=48), (48, 96), "P/exact", 1.0, 0.1, A_TENTH, BODIES),
     "shocked ripple": Column(Ripple(L=200), (200, 400), "growth/theory", 1.0, 0.1, A_TENTH,
-                             (EDGES[0], STABLE[0], BLENDED)),
+                             variants(LATTICE, STABLE[0], BLENDED)),
 }
+
+
+# --- what is asked ------------------------------------------------------------------------------------------
+
+def measured(scene: Any, course: Course) -> Row:
+    """What a scene measures of a run that has come to its end."""
+    numbers = scene.seen(course.seen[0], course.seen[-1]) if course.reached == 1 else {}
+    return fate(course) | numbers
+
+
+def halved(sums: Any, state: np.ndarray) -> int:
+    """Parts of steps that were halved so far."""
+    return sums.refused     # type: ignore[no-any-return]
+
+
+def limited(sums: Any, state: np.ndarray) -> int:
+    """Euler steps with limits so far."""
+    return sums.limited     # type: ignore[no-any-return]
+
+
+def switching(scene: Any, course: Course) -> Row:
+    """The same, and how much the flux had to do."""
+    if course.reached < 1:
+        return measured(scene, course)
+    share, halves, limits = (course.watched[name] for name, _ in WATCHED)
+    return measured(scene, course) | {
+        "switched": float(np.mean(share)), "halved": halves[-1], "limited": limits[-1]}
+
+
+def smooth_error(scene: Any, course: Course) -> Row:
+    """Rms error of velocities over the fastest of the start, of convection K."""
+    first, last = course.seen[0], course.seen[-1]
+    known, exact = (velocities(scene, at) for at in (first, last))
+    if not known.any():
+        return {"value": kinetic_energy(last)}
+    rms = np.sqrt(((last.v - exact)**2).mean())
+    return {"value": float(rms/np.abs(known).max())}
+
+
+def velocities(scene: Any, at: Fields) -> np.ndarray:
+    """(n, 2) of the answer, zero where it is not known."""
+    known = answer(scene, at.x)
+    return np.stack([known.get(name, np.zeros(len(at.x))) for name in ("vx", "vy")], axis=1)
+
+
+WATCHED = ("switched", switched), ("halved", halved), ("limited", limited)
+AT_END = Question(copied, measured, samples=1)
+SWITCHING = Question(copied, switching, 30, WATCHED)
+SMOOTHNESS = Question(copied, smooth_error, 30)

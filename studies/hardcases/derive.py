@@ -15,11 +15,9 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from studies.hardcases.columns import COLUMNS, LEFT
-from studies.hardcases.extremes import BOXES, ROWS, SOUND, rarefied
+from studies.hardcases.columns import COLUMNS, HELD, LEFT, PAIRS
+from studies.hardcases.extremes import BOXES, PROBES, ROWS, SOUND, rarefied
 from studies.hardcases.printed import impulse
-from studies.hardcases.robust import HELD, PAIRS
-from studies.hardcases.survival import PROBES
 from studies.hardcases.tubes import STEPS
 from studies.kit.fits import line
 from studies.kit.stats import Measured, combine, over_seeds
@@ -152,7 +150,7 @@ def of_probes(probes: pd.DataFrame) -> Iterator[Row]:
     """Numbers over what is known, or next to nothing: right or wrong if the whole interval is."""
     for _, run in probes.sort_values(["case", "method"]).iterrows():
         ratio = Measured(run.measured, run.measured_err)/(run.predicted or 1.0)
-        wanted, (scene, _, number) = float(run.predicted != 0), PROBES[run.case]
+        wanted, probe = float(run.predicted != 0), PROBES[run.case]
         difference = abs(ratio.value - wanted)
         result = "unjudged"
         if run.reached < 1:
@@ -161,7 +159,7 @@ def of_probes(probes: pd.DataFrame) -> Iterator[Row]:
             result = "right"
         elif difference - ratio.err > NEAR:
             result = "wrong"
-        yield entry(run.case, run.method, f"L {scene.L:g}", result, number, *ratio, wanted)
+        yield entry(run.case, run.method, f"L {probe.scene.L:g}", result, probe.number, *ratio, wanted)
 
 
 def of_tubes(tubes: pd.DataFrame) -> Iterator[Row]:

@@ -1,26 +1,28 @@
-"""Scenes of hard cases, and methods in them    [KHP95, Sec. VI; RR98, Sec. III]
+"""Layers and boxes, and what is asked there of any method    [KHP95, Sec. VI; RR98, Sec. III]
 
 All have 16 rows or so: the question is who gives way first. Units: spacing, mean density, P/rho at T = 1.
 """
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import pi, sqrt
-from typing import Any, ClassVar, NamedTuple
+from pathlib import Path
+from typing import Any, NamedTuple
 
 import numpy as np
+import pandas as pd
 
 from continuum.exact.shear import growing_wave, layer_with_wave
-from continuum.gas.fields import block, placed
-from continuum.scene import RayleighBenard, Torus, Walls
-from studies.build.grid import GridForm, started
-from studies.build.names import START_JITTER
-from studies.build.scenes import Slab, Tile
-from studies.build.setting import Ready, positions
-from studies.build.spam import Variant
+from continuum.gas.fields import NodeFields, at_nodes, initial
+from continuum.scene import RayleighBenard, Walls
+from particles.fields import Fields, kinetic_energy
+from studies.build.names import START_ENERGY
+from studies.build.scenes import Slab
+from studies.hardcases.runs import THIN, Course, Hard, Question, Row, between_plates, fate
+from studies.kit.case import Outcome, Report
+from studies.kit.fits import line
 
 ROWS = 16
 SOUND = sqrt(2)
-THIN = 1e-3         # density in place of vacuum, for methods whose points fill the box
 SPEED = 0.1         # of the vortex: Mach number 0.07
 U, BEGIN = 0.15, 0.01       # of the shear flow: Mach number 0.1; size of the wave over U at the start
 Velocities = tuple[np.ndarray, np.ndarray]
@@ -86,16 +88,6 @@ def rarefied(t: float) -> float:
     return 0.2*SOUND**3*t/STRIP.L
 
 
-@dataclass(frozen=True)
-class Open:
-    """A scene without its plates: periodic along both axes."""
-    scene: Any
-    sides: ClassVar[Torus] = Torus()
-
-    def __getattr__(self, name: str) -> Any:
-        return getattr(self.scene, name)
-
-
 def layer(ra: float, pr: float = 1.0, T: float = 1.0) -> RayleighBenard:
     """KHP95's layer at another mean temperature: the static pressure is T, the flow is that of Ra and Pr."""
     return RayleighBenard(ra=ra, pr=pr, L=float(ROWS), T_hot=T + 0.5, T_cold=T - 0.5)
@@ -141,38 +133,111 @@ BOXES = {
 SITUATIONS = {**LAYERS, **BOXES}
 
 
-def places(scene: Any) -> np.ndarray:
-    """(n, 2) where particles start: away from where plates would be."""
-    return positions(scene.width, scene.L, START_JITTER, 1)
+# --- what is asked ------------------------------------------------------------------------------------------
+
+LATE = 2/3          # of a run: means are over what comes after
+SPACINGS = 4        # of a cell over which velocities are averaged: what is left is flow, the rest noise
+GROWN = 2.5/RATE    # time of a wave on a shear flow, which ends with a tenth of U
 
 
-class Smooth(NamedTuple):
-    """Smooth particles, none where the gas is thin; their step is chosen at the start."""
-    variant: Variant
-
-    def ready(self, scene: Any) -> Ready:
-        """In a scene."""
-        x = places(scene)
-        ready = self.variant.ready(scene, x=x[scene.fields(x)[0] > THIN])
-        return ready._replace(dt=self.variant.step*ready.limit)
+def late(values: Any) -> slice:
+    """The last third of samples, the start being the first."""
+    return slice(min(round(LATE*len(values)), len(values) - 1), None)
 
 
-class WithoutPlates(NamedTuple):
-    """A method that takes a scene without its plates."""
-    variant: Any
+def flow(at: Fields, box: tuple[float, float]) -> float:
+    """K per mass of mean velocities in cells of SPACINGS, which have no noise between neighbours."""
+    size, m = np.array(box), at.rho*at.V
+    cells = np.maximum(1, np.round(size/SPACINGS)).astype(int)
+    place = np.clip(((at.x/size + 0.5)*cells).astype(int), 0, cells - 1)
+    momentum = m[:, None]*at.v
+    sums = pd.DataFrame({"m": m, "px": momentum[:, 0], "py": momentum[:, 1]}).groupby(list(place.T)).sum()
+    energy = (sums.px**2 + sums.py**2)/sums.m/2
+    return float(energy.sum()/sums.m.sum())
 
-    def ready(self, scene: Any) -> Ready:
-        """In a scene."""
-        return self.variant.ready(Open(scene))  # type: ignore[no-any-return]
+
+def energies(scene: Any, at: Fields) -> tuple[float, float, float]:
+    """K and the flow's per mass, and the mass."""
+    return kinetic_energy(at), flow(at, (scene.width, scene.L)), float((at.rho*at.V).sum())
 
 
-class Tiled(NamedTuple):
-    """The compressible grid without plates, and so without gravity, for the time loop of particles."""
-    form: GridForm
+def seen(scene: Any, method: Any, state: np.ndarray) -> tuple[float, float, float]:
+    """These of any method."""
+    return energies(scene, method.fields(state))
 
-    def ready(self, scene: Any) -> Ready:
-        """In a scene, whose plates are left out."""
-        box = Tile(width=scene.width, L=scene.L, eos=scene.eos, law=scene.law)
-        start = placed(box, round(scene.L), lambda x, y: started(scene, x, y))
-        method, S, dt = self.form.ready(box, first=block(start))
-        return Ready(method, S.reshape(4, -1), dt)
+
+def means(scene: Any, course: Course) -> Row:
+    """Means over the last third, if it was reached; the mass, and what there was at the start."""
+    k, moves, mass = np.transpose(course.seen)
+    last = late(k)
+    whole = {"k": k[last].mean(), "flow": moves[last].mean()} if course.reached == 1 else {}
+    return {**whole, "mass_drift": mass[-1]/mass[0] - 1, "k_start": k[0], "flow_start": moves[0],
+            **fate(course)}
+
+
+#: does a method come to the end, and with which K, flow and mass?
+SURVIVAL = Question(seen, means)
+
+
+class OnGrid(Hard):
+    """The same of the compressible grid between plates, in a time loop of its own. entrant : its rows."""
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        start = initial(self.scene, self.entrant, START_ENERGY)
+        done, reached = between_plates(start, self.time, report)
+        came = fate(Course([], reached))
+        if done is None:
+            return self.outcome(**came)
+        k_start, flow_start, _ = self.energies(start)
+        k_end, flow_end, _ = self.energies(done.fields)
+        k = done.series.ke[late(done.series.ke)].mean()
+        return self.outcome(k=k, flow=k*flow_end/max(k_end, 1e-300), mass_drift=done.mass_drift,
+                            k_start=k_start, flow_start=flow_start, **came)
+
+    def energies(self, fields: NodeFields) -> tuple[float, float, float]:
+        """Of nodes of one mass each, those in plates too."""
+        at = at_nodes(fields)
+        return energies(self.scene, at._replace(V=np.ones_like(at.rho)))
+
+
+def amplitude(scene: Any, method: Any, state: np.ndarray) -> float:
+    """Size of v exp(-i k_x x), the mean over the mass, of the wave on the shear flow."""
+    at = method.fields(state)
+    wave, m = np.exp(-1j*WAVE_NUMBER/2*at.x[:, 0]), at.rho*at.V
+    return float(abs(np.sum(m*at.v[:, 1]*wave))/m.sum())
+
+
+def growth(scene: Any, course: Course) -> Row:
+    """The rate of this wave."""
+    row = {"predicted": RATE, "reached": course.reached}
+    if course.reached < 1:
+        return row
+    times = np.linspace(0, GROWN, len(course.seen))
+    rate, err = line(times, np.log(course.seen)).slope
+    return row | {"measured": rate, "measured_err": err}
+
+
+def unevenness(scene: Any, method: Any, state: np.ndarray) -> float:
+    """Rms deviation of densities from their mean."""
+    at = method.fields(state)
+    return float(np.sqrt(at.V@(at.rho - 1)**2/at.V.sum()))
+
+
+def left(scene: Any, course: Course) -> Row:
+    """What is left in the last third, over what there was at the start; nothing should be."""
+    measured = np.mean(course.seen[late(course.seen)])/course.seen[0] if course.reached == 1 else np.nan
+    return {"predicted": 0.0, "measured": measured, "measured_err": 0.0, "reached": course.reached}
+
+
+class Probe(NamedTuple):
+    """A scene without its plates, how long it is followed, what is asked, and the number's name."""
+    scene: Any
+    time: float
+    question: Question
+    number: str
+
+
+PROBES = {
+    "shear layer": Probe(SHEAR_FLOW, GROWN, Question(amplitude, growth, samples=50), "growth/linear"),
+    "alternating densities": Probe(CHESSBOARD, 300.0, Question(unevenness, left), "left/start"),
+}

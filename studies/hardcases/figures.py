@@ -7,14 +7,12 @@ import pandas as pd
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 
-from studies.hardcases.cases import IN_LAYERS, IN_TUBES
+from studies.hardcases.cases import IN_LAYERS, TRIED
 from studies.hardcases.columns import COLUMNS
 from studies.hardcases.derive import NEAR, SPURIOUS
-from studies.hardcases.extremes import BOXES, LAYERS, ROWS
+from studies.hardcases.extremes import BOXES, LAYERS, PROBES, ROWS
 from studies.hardcases.high_ra import OFF
 from studies.hardcases.printed import impulse
-from studies.hardcases.survival import PROBES
-from studies.hardcases.trials import METHODS
 from studies.hardcases.tubes import ETAS, STEPS, exact
 from studies.kit.figure import LINES, Drawing, Drawings, figure, look
 from studies.kit.table import groups
@@ -89,7 +87,7 @@ def chart(rows: pd.DataFrame) -> Figure:
 
 def place_of(method: str) -> tuple[int, str]:
     """Methods of the trials first, in their order."""
-    return METHODS.index(method) if method in METHODS else len(METHODS), method
+    return TRIED.index(method) if method in TRIED else len(TRIED), method
 
 
 def tenths(error: float) -> str:
@@ -131,7 +129,7 @@ def band(axes: Any, values: pd.Series, time: pd.Series, number: int, label: str)
     axes.fill_between(of_seeds.index, of_seeds["min"], of_seeds["max"], color=style["color"], alpha=0.2)
 
 
-ALL = (*IN_TUBES, "spam")
+ALL = (*IN_LAYERS, "spam")
 SHIFT = 0.6             # between methods' densities, upwards
 
 

@@ -28,7 +28,7 @@ from studies.build.names import START_ENERGY
 from studies.build.setting import Ready, stepped
 from studies.build.unguarded import bisected
 from studies.hardcases.extremes import ROWS, falls, layer
-from studies.hardcases.survival import between_plates, followed
+from studies.hardcases.runs import SAMPLES, between_plates, followed
 from studies.kit.case import Case, Outcome, Report
 
 OFF = 1.25              # factor in K
@@ -37,7 +37,7 @@ FINE = 48               # rows of the grid that tells what K should be
 RUNGS = tuple(float(f"{10.0**(n/2):.9g}") for n in range(8, 17))        # 1e4 .. 1e8
 KNOWN = 1e6             # Ra up to which K is held against the fine grid
 TIME = 50.0             # free-fall times, as in the map
-SAMPLES, LATE = 60, 41  # of a run; from where on K is averaged, the start being the first
+LATE = slice(41, None)  # samples of which K is averaged, the start being the first
 NOISE = 1e-6            # of the density at the start, by which seeds differ where points do not
 
 
@@ -56,22 +56,23 @@ def ripple(seed: int, *shape: int) -> np.ndarray:
     return 1 + NOISE*np.random.default_rng(seed).standard_normal(shape)
 
 
-class Rippled(NamedTuple):
+def rippled(scheme: Scheme, scene: Any, seed: int) -> Ready:
     """Fixed points whose densities differ by NOISE."""
-    scheme: Scheme
-
-    def ready(self, scene: Any, seed: int) -> Ready:
-        """In a scene."""
-        method, start, _ = self.scheme.ready(scene, seed)
-        return stepped(method, start*ripple(seed, len(method.x)), OF_LIMIT)
+    method, start, _ = scheme.ready(scene, seed)
+    return stepped(method, start*ripple(seed, len(method.x)), OF_LIMIT)
 
 
 def on_points(variant: Any, ra: float, seed: int, step: float) -> Attempt:
     """Fixed or moving points. variant : has ready(scene, seed)."""
     scene = layer(ra)
-    method, start, dt = variant.ready(scene, seed)
-    course = followed(Ready(method, start, step*dt), falls(scene, TIME), SAMPLES, kinetic_energy)
-    return Attempt(course.seen[LATE:].mean() if course.reached == 1 else np.nan, course.reached)
+    ready = variant.ready(scene, seed)
+    seen, reached, _ = followed(ready._replace(dt=step*ready.dt), falls(scene, TIME), SAMPLES, kinetic)
+    return Attempt(np.mean(seen[LATE]) if reached == 1 else np.nan, reached)
+
+
+def kinetic(method: Any, state: np.ndarray) -> float:
+    """K per mass."""
+    return kinetic_energy(method.fields(state))
 
 
 def on_grid(rows: int, ra: float, seed: int, step: float) -> Attempt:
@@ -80,11 +81,11 @@ def on_grid(rows: int, ra: float, seed: int, step: float) -> Attempt:
     start = initial(scene, rows, START_ENERGY)
     dt = step*SAFETY*limits(scene, block(start)).both
     start = replace(start, cells=start.cells*ripple(seed, *start.cells.shape))
-    done, reached = between_plates(start, falls(scene, TIME), SAMPLES, no_report, dt)
+    done, reached = between_plates(start, falls(scene, TIME), no_report, dt)
     if done is None:
         return Attempt(np.nan, reached)
     fastest = np.hypot(done.fields.at.vx, done.fields.at.vy).max()
-    return Attempt(done.series.ke[LATE:].mean(), 1.0, fastest*scene.L/ROWS/scene.nu)
+    return Attempt(done.series.ke[LATE].mean(), 1.0, fastest*scene.L/ROWS/scene.nu)
 
 
 def no_report(done: float) -> None:

@@ -1,16 +1,22 @@
-"""Hard cases without viscosity in which a gas meets something: a body in its stream, another gas."""
+"""Hard cases without viscosity in which a gas meets another one, or a body in its stream.
+
+Riemann problems: gases meet in the middle of a strip of four units; where it closes one gas goes over into
+the other along a line. What comes from there does not reach the quarter of the strip that is looked at.
+Cells are those of Toro's unit of length.
+"""
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
+from continuum.exact.riemann import GasState, middle, solution
 from continuum.fluid import ConstEta, IdealGas
 from particles.fields import Fields
 from studies.build.scenes import Scene, Start
-from studies.build.stable import BODIES
-from studies.hardcases.printed import BELOW, HEAVY, LIGHT, TALL, WIDTH, Impulse, impulse
-from studies.hardcases.tubes import EOS, GAMMA
+from studies.hardcases.printed import BELOW, HEAVY, LIGHT, SHIFT, TALL, WIDTH, Impulse, impulse, jittered
+from studies.hardcases.tubes import DENSE, EOS, GAMMA, HEIGHT, NAMES, THIN, wiggles
 
+WINDOW, EVEN, CLOSED = 0.5, 1.8, 2.0        # units from the middle: what is seen, where gases end, the strip
 MACH = 3.0          # of the stream past a disc
 STEEP = 0.25        # k a of the ripple before the shock
 HOT = 0.7           # between the temperatures of the light gas, 1 and more, and the heavy one, 0.5 and less
@@ -26,10 +32,11 @@ class Frictionless(Scene):
     """A square of L rows of a gas without viscosity."""
     L: int
     law: ConstEta = ConstEta(0.0, 0.0)  # noqa: RUF009 (immutable)
+    wide: ClassVar[int] = 1         # width over L
 
     @property
     def width(self) -> int:  # type: ignore[override]
-        return self.L
+        return self.wide*self.L
 
 
 def pitot(mach: float, gamma: float) -> float:
@@ -44,11 +51,7 @@ class Bow(Frictionless):
     R/c to settle, and no wave has come round the periodic box."""
     eos: Any = EOS
     speed: ClassVar[float] = MACH*GAMMA**0.5
-    takes: ClassVar[dict] = BODIES
-
-    @property
-    def width(self) -> int:  # type: ignore[override]
-        return 2*self.L
+    wide: ClassVar[int] = 2
 
     @property
     def disc(self) -> float:
@@ -119,3 +122,104 @@ class Ripple(Frictionless):
         ripple = 2*np.mean(height*np.cos(2*np.pi/self.width*x[:, 0]))
         expected = self.theory.growth*(self.time - self.theory.meets)
         return {"measured": float((ripple - self.theory.amplitude)/expected)}
+
+
+# --- Riemann problems ---------------------------------------------------------------------------------------
+
+class Problem(NamedTuple):
+    """Both gases, and when they are looked at; waves have then gone half a unit at most."""
+    left: GasState
+    right: GasState
+    time: float
+
+
+def collision(mach: float) -> Problem:
+    """Gases that meet and come to rest behind shocks of a Mach number, which are then 0.25 units away."""
+    c = GAMMA**0.5
+    v = 2*c/(GAMMA + 1)*(mach - 1/mach)
+    return Problem(GasState(1.0, v, 1.0), GasState(1.0, -v, 1.0), 0.25/(mach*c - v))
+
+
+#: Toro's have two digits of their time; a vacuum of a millionth
+PROBLEMS = {
+    "Sod": Problem(DENSE, THIN, 0.2),
+    "Toro 1": Problem(GasState(1.0, 0.75, 1.0), GasState(0.125, 0.0, 0.1), 0.2),
+    "Toro 2": Problem(GasState(1.0, -2.0, 0.4), GasState(1.0, 2.0, 0.4), 0.15),
+    "Toro 3": Problem(GasState(1.0, 0.0, 1000.0), GasState(1.0, 0.0, 0.01), 0.012),
+    "Toro 4": Problem(GasState(5.99924, 19.5975, 460.894), GasState(5.99242, -6.19633, 46.095), 0.035),
+    "Toro 5": Problem(GasState(1.0, -19.59745, 1000.0), GasState(1.0, -19.59745, 0.01), 0.012),
+    "vacuum 1e-6": Problem(GasState(1.0, 0.0, 1.0), GasState(1e-6, 0.0, 1e-6), 0.08),
+    "Mach 10": collision(10.0),
+    "Mach 100": collision(100.0),
+}
+
+
+@dataclass(frozen=True, kw_only=True)
+class Strip(Scene):
+    """A problem in a strip of four units, the gases meet at x = 0; densities over that of the left gas."""
+    problem: Problem
+    cells: int
+    eos: object = EOS
+    law: ConstEta = ConstEta(0.0, 0.0)  # noqa: RUF009 (immutable)
+    L: float = HEIGHT
+
+    counted = "cells"
+
+    @property
+    def width(self) -> float:  # type: ignore[override]
+        return 2*CLOSED*self.cells
+
+    @property
+    def time(self) -> float:
+        return self.problem.time*self.cells
+
+    @property
+    def fastest(self) -> float:
+        """Speed and sound's of the gas, and of what is between the waves."""
+        left, right, _ = self.problem
+        v, P, *densities = middle(left, right, GAMMA)
+        states = (left, right, *(GasState(rho, v, P) for rho in densities))
+        return max(abs(gas.v) + (GAMMA*gas.P/gas.rho)**0.5 for gas in states)
+
+    def gases(self, x: np.ndarray) -> np.ndarray:
+        """rho, v, P (3, n)."""
+        left, right = (np.array(gas)[:, None] for gas in self.problem[:2])
+        over = np.clip((np.abs(x)/self.cells - EVEN)/(CLOSED - EVEN), 0, 1)/2
+        own, other = np.where(x < 0, left, right), np.where(x < 0, right, left)
+        return (own + over*(other - own))/np.array([[left[0, 0]], [1.0], [left[0, 0]]])
+
+    def fields(self, x: np.ndarray) -> Start:
+        rho, v, P = self.gases(x[:, 0])
+        return rho, np.stack([v, 0*v], axis=1), P/rho
+
+    def of_one_mass(self, seed: int) -> tuple[np.ndarray, Start]:
+        """Columns and rows as far apart in each gas as its density wants them, of which one may have none."""
+        rng, parts = np.random.default_rng(seed), []
+        for gas, left in ((self.problem.left, -CLOSED), (self.problem.right, 0.0)):
+            number = 2*self.cells*HEIGHT*gas.rho/self.problem.left.rho
+            rows = max(1, round((number*HEIGHT/2/self.cells)**0.5))
+            counts = round(number/rows), rows
+            cell = 2*self.cells/max(counts[0], 1), HEIGHT/rows
+            parts.append(jittered(counts, cell, (left*self.cells, -HEIGHT/2), SHIFT, rng).T)
+        x = np.concatenate(parts)
+        return x, self.fields(x)
+
+    def seen(self, first: Fields, at: Fields) -> dict[str, float]:
+        """The farthest of mean differences of density, velocity and pressure, over their ranges, in spacings;
+        these three; variation of v; how far what is between the waves is off."""
+        left, right, time = self.problem
+        here = np.abs(at.x[:, 0]) < WINDOW*self.cells
+        x, V = at.x[here, 0], at.V[here]
+        exact = solution(left, right, GAMMA, x/self.cells/time)
+        has = np.array([at.rho*left.rho, at.v[:, 0], at.rho*at.T*left.rho])[:, here]
+        errors = np.abs(has - exact)@V/V.sum()/np.ptp(exact, axis=1)
+        order = np.argsort(x, kind="stable")
+        rows = int(self.L)
+        level = [q[order][:len(x)//rows*rows].reshape(-1, rows).mean(axis=1) for q in (has[1], exact[1])]
+        between = middle(left, right, GAMMA)
+        flat = [np.isclose(exact[0], rho) & np.isclose(exact[2], between.P) for rho in between[2:]]
+        off = [np.median(q[side])/q_exact[side][0] - 1 for q, q_exact in zip(has[::2], exact[::2])
+               for side in flat if side.any()]
+        return {"measured": float(errors.max()*self.cells), "wiggles": wiggles(*level),
+                "plateau": float(np.abs(off).max(initial=0)),
+                **dict(zip((f"{name}_exact" for name in NAMES), map(float, errors)))}

@@ -11,7 +11,6 @@ here a shock of Mach 1.5 comes through the light gas, the ripple has one wavelen
 shock begins; above is vacuum.
 """
 from dataclasses import dataclass
-from functools import partial
 from math import pi, sqrt
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -19,7 +18,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from continuum.exact.riemann import GasState, middle, shock_speed
-from continuum.fluid import ConstEta, IdealGas
+from continuum.fluid import IdealGas
 from continuum.scene import RayleighBenard, Walls
 from particles.limits import step_limit
 from particles.observe import Grid, Smoothed, fields_at
@@ -30,9 +29,10 @@ from particles.walls.periodic import periodic
 from particles.weights import Lucy
 from studies.build.measure import Snapshot, at_end, turns
 from studies.build.names import START_ENERGY
+from studies.build.setting import Ready
 from studies.build.spam import FRICTIONLESS, Variant, at_rest, fluid
 from studies.hardcases.extremes import falls
-from studies.hardcases.tubes import DENSE, END, EOS, HEIGHT, THIN, Seen, centres, ran
+from studies.hardcases.tubes import DENSE, EOS, HEIGHT, THIN, Tubes, centres
 from studies.kit.case import Case, Outcome, Report
 
 
@@ -215,11 +215,12 @@ SHIFT = 0.05                    # of the columns and rows: a perfect lattice kee
 SKIN = 1.5                      # of neighbour lists: at the diaphragm particles reach full speed in a step
 
 
-def smooth(weight: Any, L: int, law: ConstEta, seed: int, step: float, report: Report) -> Seen:
-    """Smooth particles."""
-    method, begin = fluid(weight.of(h=3.0), (4.0*L, HEIGHT), EOS, law, m=MASS, skin=SKIN), tube(L, seed)
-    steps = round(END*L/(step*step_limit(method, begin[4]))) + 1
-    return ran(method, begin, L, steps, partial(smoothed, method, centres(L)), report)
+def in_tubes(weight: Any, scene: Tubes, seed: int) -> Ready:
+    """Smooth particles with a class of weights in Sod's tubes, a step that divides the time."""
+    start = tube(scene.half, seed)
+    method = fluid(weight.of(h=3.0), (scene.width, HEIGHT), EOS, scene.law, m=MASS, skin=SKIN)
+    steps = round(scene.time/(STUDIES*step_limit(method, start[4]))) + 1
+    return Ready(method, start, scene.time/steps)
 
 
 def tube(L: float, seed: int) -> np.ndarray:
@@ -234,9 +235,10 @@ def tube(L: float, seed: int) -> np.ndarray:
     return np.concatenate(gases, axis=1)
 
 
-def smoothed(method: Spam, x: np.ndarray, state: np.ndarray) -> np.ndarray:
+def smoothed(scene: Tubes, method: Spam, state: np.ndarray) -> np.ndarray:
     """(3, n): smoothed rho, v, P of a tube and its image, means over the height and over both."""
     sums, state, _ = method.look(state)
+    x = centres(scene.half)
     y, both = np.arange(HEIGHT) + 0.5 - HEIGHT/2, []
     for sign in (1, -1):
         at = fields_at(sums, state, *np.meshgrid(sign*x, y))

@@ -1,5 +1,5 @@
 """Claims about a flux that survives."""
-from studies.hardcases.robust import BLENDED, EDGES, HELD, PAIRS, STABLE
+from studies.hardcases.columns import BLENDED, EDGES, HELD, PAIRS, STABLE
 from studies.kit.ask import Value, bench, farthest, largest, largest_of, last, least, one, power, total
 from studies.kit.claim import Claim
 

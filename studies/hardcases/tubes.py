@@ -15,10 +15,9 @@ differences are expected to ring; and the one that smooth particles were given. 
 0, 0.11 and 0.42. Steps are half of the limit at the start, since v + c behind the shock is 1.85 times c of
 the dense gas; a quarter of this step tells the scheme's end from the step's.
 """
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
-from pathlib import Path
+from math import ceil
 from typing import Any
 
 import numpy as np
@@ -28,11 +27,12 @@ from scipy.integrate import solve_ivp
 from continuum.exact.riemann import GasState, middle, solution
 from continuum.fluid import ConstEta, IdealGas
 from continuum.gas.fields import block, placed, unblock
-from particles.fields import Fields
 from particles.run import Divergence, Plan, run
 from studies.build.grid import GridForm
 from studies.build.scenes import Scene, Slab, Start
-from studies.kit.case import Case, Outcome, Report
+from studies.build.setting import Ready
+from studies.hardcases.runs import Course, Hard, Row
+from studies.kit.case import Outcome, Report
 
 EOS, GAMMA = IdealGas(cv=2.5), 1.4
 DENSE, THIN = GasState(1.0, 0.0, 1.0), GasState(0.125, 0.0, 0.1)
@@ -110,11 +110,6 @@ def wiggles(v: np.ndarray, truth: np.ndarray) -> float:
 
 # --- methods ------------------------------------------------------------------------------------------------
 
-
-#: rho, v, P (3, n) in cells of one spacing, None if the run ended before; part of the time reached
-Seen = tuple[np.ndarray | None, float]
-
-
 @dataclass(frozen=True, kw_only=True)
 class Tubes(Scene):
     """Both tubes. half : the length of one."""
@@ -127,43 +122,29 @@ class Tubes(Scene):
     def width(self) -> float:  # type: ignore[override]
         return 4.0*self.half
 
+    @property
+    def time(self) -> float:
+        return END*self.half
+
     def fields(self, x: np.ndarray) -> Start:
         rho, _, P = start(np.abs(x[:, 0]) < self.half)
         return rho, np.zeros((len(x), 2)), P/rho
 
 
-def points(variant: Any, L: int, law: ConstEta, seed: int, step: float, report: Report) -> Seen:
-    """Fixed or moving points of a variant; step : over the limit of the start."""
-    tubes = variant.ready(Tubes(half=L, law=law), seed)
-    steps = int(END*L/(step*tubes.limit)) + 1
-
-    def look(state: np.ndarray) -> np.ndarray:
-        return binned(L, tubes.method.fields(state))
-    return ran(tubes.method, tubes.start, L, steps, look, report)
-
-
-def ran(method: Any, begin: np.ndarray, L: int, steps: int, look: Callable, report: Report) -> Seen:
-    """Particles or points; look(state) gives what is seen."""
-    try:
-        done = run(method, begin, Plan(dt=END*L/steps, steps=steps), report)
-    except Divergence as error:
-        return None, error.step/steps
-    return look(done.by_id()), 1.0
-
-
-def binned(L: int, at: Fields) -> np.ndarray:
+def binned(scene: Tubes, method: Any, state: np.ndarray) -> np.ndarray:
     """rho, v, P (3, 2 L) in cells, of points by volume; means over the height and both tubes.
 
     A point is as wide as its volume and one spacing high: where the gas is thin rows of points lie farther
     apart than cells.
     """
+    at, cells = method.fields(state), 2*scene.half
     offsets = (np.arange(PARTS) + 0.5)/PARTS - 0.5
     x = (at.x[:, 0] + at.V*offsets[:, None]).ravel()
-    cell = np.minimum(np.abs(x).astype(int), 2*L - 1)
+    cell = np.minimum(np.abs(x).astype(int), cells - 1)
     points = pd.DataFrame({"V": at.V, "m": at.rho*at.V, "v": at.v[:, 0], "T": at.T})
     parts = pd.concat([points]*PARTS, ignore_index=True)
     weighed = parts.assign(p=parts.m*parts.v*np.sign(x), heat=parts.m*parts["T"])
-    sums = weighed.groupby(cell).sum().reindex(range(2*L))
+    sums = weighed.groupby(cell).sum().reindex(range(cells))
     return np.array([sums.m/sums.V, sums.p/sums.m, sums.heat/sums.V])
 
 
@@ -184,18 +165,20 @@ class Upright(Slab):
         return np.where(y < 0, DENSE.rho, THIN.rho), 0*T, 0*T, T
 
 
-def grid(form: GridForm, L: int, law: ConstEta, seed: int, step: float, report: Report) -> Seen:
-    """The compressible grid, cells of one spacing; it has no disorder, so that `seed` says nothing."""
-    scene = Upright(L=float(2*L), aspect=2/L, viscosity=law.eta, heat=law.k)
-    ready = form.ready(scene, first=block(placed(scene, 2*L, scene.begin)))
-    steps = int(END*L/(step*ready.limit)) + 1
+def cells(form: GridForm, scene: Tubes, seed: int) -> Ready:
+    """The compressible grid in one of the tubes, cells of one spacing, its longest step at the start."""
+    rows, eta = 2*scene.half, scene.law.eta
+    one = Upright(L=float(rows), aspect=2/scene.half, viscosity=eta, heat=eta)
+    made = form.ready(one, first=block(placed(one, rows, one.begin)))
+    return made._replace(dt=made.limit)
 
-    def look(state: np.ndarray) -> np.ndarray:
-        done = unblock(scene, ready.method.block(state))
-        v, T = ((q[1:] + q[:-1])[:, :-1].mean(axis=1)/2 for q in (done.at.vy, done.at.T))
-        rho = done.cells.mean(axis=1)
-        return np.array([rho, v, rho*T])
-    return ran(ready.method, ready.start.reshape(4, -1), L, steps, look, report)
+
+def in_cells(scene: Tubes, method: Any, state: np.ndarray) -> np.ndarray:
+    """rho, v, P (3, 2 L) of the grid, means over the width."""
+    done = unblock(method.scene, method.block(state))
+    v, T = ((q[1:] + q[:-1])[:, :-1].mean(axis=1)/2 for q in (done.at.vy, done.at.T))
+    rho = done.cells.mean(axis=1)
+    return np.array([rho, v, rho*T])
 
 
 def centres(L: int) -> np.ndarray:
@@ -203,42 +186,37 @@ def centres(L: int) -> np.ndarray:
     return np.arange(2*L) + 0.5
 
 
-@dataclass(frozen=True, kw_only=True)
-class MethodTube(Case):
-    """One tube. L : half of its length, spacings. eta : viscosity and conductivity.
+def sods_row(scene: Tubes, course: Course) -> Row:
+    """Mean differences from the exact gas and from the fine grid, over their ranges; how much v rings."""
+    row = {"reached": course.reached}
+    if course.reached < 1:
+        return row
+    last, truth = course.seen[-1], exact(scene.half, centres(scene.half))
+    for kind, other in (("exact", truth), ("grid", viscous(scene.half, scene.law.eta))):
+        errors = np.abs(last - other).mean(axis=1)/np.ptp(truth, axis=1)
+        row |= {f"{name}_{kind}": error for name, error in zip(NAMES, errors)}
+    return row | {"wiggles": wiggles(last[1], truth[1])}
 
-    tube : takes variant, L, law, seed, step, report. step : over the limit at the start.
-    keep : whether profiles go to the table.
-    """
-    method: str
-    tube: Callable[..., Seen]
-    variant: Any
-    L: int
-    eta: float
-    seed: int = 1
-    step: float = STEPS[0]
-    keep: bool = False
 
-    @property
-    def cost(self) -> float:
-        return {"moving": 1e-3}.get(self.method, 1e-4)*self.L**2/self.step + 1
+class Tube(Hard):
+    """A tube that is looked at when it has come to its end, and never before."""
 
-    @property
-    def label(self) -> str:
-        return f"tube of {self.method}, L {self.L}, eta {self.eta:g}, seed {self.seed}, step {self.step:g}"
+    def course(self, ready: Ready, report: Report) -> Course:
+        method, start, dt = ready
+        steps = ceil(self.time/dt - 1e-9)       # of a step that divides the time
+        plan = Plan(dt=self.time/steps, steps=steps)
+        try:
+            done = run(method, start.reshape(len(start), -1), plan, report)
+        except Divergence as error:
+            return Course([], error.step/steps)
+        return Course([self.question.look(self.scene, method, done.by_id())])
 
-    def run(self, report: Report, folder: Path) -> Outcome:
-        law, x = ConstEta(self.eta, self.eta), centres(self.L)
-        fields, reached = self.tube(self.variant, self.L, law, self.seed, self.step, report)
-        point = {"method": self.method, "eta": self.eta, "step": self.step, "L": self.L, "seed": self.seed}
-        row: dict[str, Any] = {**point, "reached": reached}
-        if fields is None:
-            return Outcome({"method_tubes": [row]})
-        truth = exact(self.L, x)
-        for kind, other in (("exact", truth), ("grid", viscous(self.L, self.eta))):
-            errors = np.abs(fields - other).mean(axis=1)/np.ptp(truth, axis=1)
-            row |= {f"{name}_{kind}": error for name, error in zip(NAMES, errors)}
-        row["wiggles"] = wiggles(fields[1], truth[1])
-        lines = np.vstack([x/self.L - 1, fields]).T.tolist() if self.keep else []
-        profile = [{**point, **dict(zip(("x", *NAMES), line))} for line in lines]
-        return Outcome({"method_tubes": [row], "method_tube_profiles": profile})
+
+class Profiled(Tube):
+    """Whose profile goes to a table, too."""
+
+    def found(self, course: Course) -> Outcome:
+        L, (row,) = self.scene.half, super().found(course).rows.values()
+        places = np.vstack([centres(L)/L - 1, course.seen[-1]]).T.tolist() if course.reached == 1 else []
+        profile = [self.columns | dict(zip(("x", *NAMES), place)) for place in places]
+        return Outcome({"method_tubes": row, "method_tube_profiles": profile})

@@ -1,0 +1,222 @@
+"""A hard case: one method in one scene until it comes to its end, diverges, or refuses.
+
+A new case is a scene, a time and a `Question`, a new method in it one `Hard` more.
+"""
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import partial
+from math import ceil
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any, ClassVar, NamedTuple
+
+import numpy as np
+
+from continuum.gas.fields import NodeFields, block, placed
+from continuum.gas.solve import DivergedError, Solution
+from continuum.gas.solve import run as march
+from continuum.scene import Torus
+from continuum.steady import Time
+from particles.fields import Fields
+from particles.plan import Quantity
+from particles.run import Divergence, Plan, run
+from studies.build.answers import of_one_mass as places_of_one_mass
+from studies.build.grid import GridForm, started
+from studies.build.names import START_JITTER
+from studies.build.scenes import Start, Tile
+from studies.build.setting import Ready, positions
+from studies.build.spam import Variant
+from studies.kit.case import Case, Outcome, Report
+
+SAMPLES = 60
+GRID = "grid"
+THIN = 1e-3         # density in place of vacuum, for methods whose points fill the box
+Row = dict[str, Any]
+Watch = tuple[tuple[str, Quantity], ...]
+
+
+class Course(NamedTuple):
+    """What was seen at the start and after each sample; part of the time reached; what was watched at each
+    sample, of a run that has come to its end."""
+    seen: list
+    reached: float = 1.0
+    watched: Mapping[str, list[float]] = MappingProxyType({})
+
+
+class Question(NamedTuple):
+    """look(scene, method, state) at the start and after each sample; answer(scene, course) gives columns;
+    quantities to watch take sums and state."""
+    look: Callable
+    answer: Callable[[Any, Course], Row]
+    samples: int = SAMPLES
+    watch: Watch = ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Hard(Case):
+    """A row of a table. columns : which run it is.
+
+    entrant : has ready(scene, seed). step : over that of the entrant. time : in the units of the scene.
+    """
+    table: str
+    columns: Row
+    entrant: Any
+    scene: Any
+    time: float
+    question: Question
+    seed: int = 1
+    step: float = 1.0
+
+    @property
+    def cost(self) -> float:
+        """About two steps in a unit of time, a few tenths of a microsecond each."""
+        return 1 + 1e-6*self.scene.width*self.scene.L*self.time/self.step
+
+    @property
+    def label(self) -> str:
+        words = [f"{value:g}" if isinstance(value, float) else str(value) for value in self.columns.values()]
+        return f"{self.table} {', '.join(words)}"
+
+    def run(self, report: Report, folder: Path) -> Outcome:
+        try:
+            ready = self.entrant.ready(self.scene, self.seed)
+        except (ValueError, ArithmeticError) as error:
+            return self.outcome(reached=0.0, refused=f"{type(error).__name__}: {str(error)[:60]}")
+        course = self.course(ready._replace(dt=self.step*ready.dt), report)
+        return self.found(course)
+
+    def course(self, ready: Ready, report: Report) -> Course:
+        """The run."""
+        look, _, samples, watch = self.question
+        return followed(ready, self.time, samples, partial(look, self.scene), report, watch)
+
+    def found(self, course: Course) -> Outcome:
+        """The row of a run."""
+        return self.outcome(**self.question.answer(self.scene, course))
+
+    def outcome(self, **values: Any) -> Outcome:
+        """The row with these values."""
+        return Outcome({self.table: [{**self.columns, **values}]})
+
+
+def followed(ready: Ready, time: float, samples: int, look: Callable, report: Report | None = None,
+             watch: Watch = ()) -> Course:
+    """Any method; look(method, state) is what is seen."""
+    method, start = ready.method, ready.start.reshape(len(ready.start), -1)      # of a grid's block
+    seen = [look(method, start)]
+
+    def see(sums: Any, state: np.ndarray) -> float:
+        seen.append(look(method, state))
+        return 0.0
+    every = ceil(time/ready.dt/samples)
+    steps = every*samples
+    plan = Plan(dt=time/steps, steps=steps, series={"seen": see, **dict(watch)}, every=every)
+    try:
+        done = run(method, start, plan, report)
+    except Divergence as error:
+        return Course(seen, error.step/steps)
+    return Course(seen, watched=done.series)
+
+
+def between_plates(start: NodeFields, time: float, report: Report,
+                   dt: float | None = None) -> tuple[Solution | None, float]:
+    """The compressible grid from a start, None if it diverged; the part of the time reached."""
+    reached, rows = [0.0], len(start.y) - 1
+
+    def progress(done: float) -> None:
+        reached.append(done)
+        report(done)
+    try:
+        done = march(start.scene, rows, until=Time(time, SAMPLES), start=start, dt=dt, progress=progress)
+    except DivergedError:
+        return None, reached[-1]
+    return done, 1.0
+
+
+# --- who takes part -----------------------------------------------------------------------------------------
+
+@dataclass(frozen=True)
+class Of:
+    """A scene that has all of another one but what it says itself."""
+    scene: Any
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self.scene, name)
+
+
+class Open(Of):
+    """Without its plates: periodic along both axes."""
+    sides: ClassVar[Torus] = Torus()
+
+
+class Swift(Of):
+    """At rest, so hot that sound is as fast as what the scene will have."""
+
+    @property
+    def T_hot(self) -> float:
+        return float(self.scene.fastest)**2/(1 + 1/self.scene.eos.cv)
+
+    def fields(self, x: np.ndarray) -> Start:
+        one = np.ones(len(x))
+        return one, np.zeros((len(x), 2)), self.T_hot*one
+
+
+class By(NamedTuple):
+    """A method that is set up in a way of its own: way(variant, scene, seed) -> Ready."""
+    way: Callable[..., Ready]
+    variant: Any
+
+    def ready(self, scene: Any, seed: int = 1) -> Ready:
+        """In a scene."""
+        return self.way(self.variant, scene, seed)
+
+
+def smooth(variant: Variant, scene: Any, seed: int) -> Ready:
+    """Smooth particles in one set of places for all seeds, away from where plates would be, none where the
+    gas is thin; their step is chosen at the start."""
+    x = positions(scene.width, scene.L, START_JITTER, 1)
+    ready = variant.ready(scene, x=x[scene.fields(x)[0] > THIN])
+    return ready._replace(dt=variant.step*ready.limit)
+
+
+def without_plates(variant: Any, scene: Any, seed: int) -> Ready:
+    """In a scene without its plates."""
+    return variant.ready(Open(scene))   # type: ignore[no-any-return]
+
+
+def tiled(form: GridForm, scene: Any, seed: int) -> Ready:
+    """The compressible grid without plates, and so without gravity."""
+    box = Tile(width=scene.width, L=scene.L, eos=scene.eos, law=scene.law)
+    start = placed(box, round(scene.L), partial(started, scene))
+    return form.ready(box, first=block(start))
+
+
+def at_limit(variant: Any, scene: Any, seed: int) -> Ready:
+    """The step is the longest at the start."""
+    made = variant.ready(scene, seed)
+    return made._replace(dt=made.limit)     # type: ignore[no-any-return]
+
+
+def hurried(variant: Any, scene: Any, seed: int, **places: Any) -> Ready:
+    """The step is the usual one of the fastest flow to come, if that is shorter."""
+    made, swift = (variant.ready(one, seed, **places) for one in (scene, Swift(scene)))
+    return made._replace(dt=min(made.dt, swift.dt))     # type: ignore[no-any-return]
+
+
+def of_one_mass(variant: Variant, scene: Any, seed: int) -> Ready:
+    """The same of smooth particles of one mass, which lie as densely as the scene wants it."""
+    x, _ = places_of_one_mass(scene, seed)
+    return hurried(variant, scene, seed, x=x)
+
+
+# --- what is seen -------------------------------------------------------------------------------------------
+
+def fate(course: Course) -> Row:
+    """How far a method came that did not refuse."""
+    return {"reached": course.reached, "refused": ""}
+
+
+def copied(scene: Any, method: Any, state: np.ndarray) -> Fields:
+    """All fields."""
+    at: Fields = method.fields(state)
+    return at._make(map(np.copy, at))   # type: ignore[call-arg, arg-type]
