@@ -55,8 +55,8 @@ def test_flows_have_no_divergence(scene):
 
 def hard(table: str, case: str) -> list[Hard]:
     """Runs of a case, but for those of ranges below 1.2, which are refused, and of grids between plates."""
-    return [one for one in cases("paper") if type(one) is Hard and one.table == table
-            and one.columns["case"] == case and "0.9" not in one.columns["method"]]
+    return [one for one in cases("paper") if type(one) is Hard and one.into == table
+            and one.which["case"] == case and "0.9" not in one.which["method"]]
 
 
 @pytest.mark.parametrize("case", SITUATIONS)
@@ -114,7 +114,7 @@ def test_the_grid_goes_round_a_box_without_plates():
     ("alternating densities", "fixed-lattice", 1.0, 1e-6),  # no gradient sees the chessboard
     ("alternating densities", "moving-delaunay", 0.0, 0.1)])
 def test_numbers_that_are_known_are_what_is_asked(case, method, expected, within):
-    probe, = (one for one in hard("probes", case) if one.columns["method"] == method)
+    probe, = (one for one in hard("probes", case) if one.which["method"] == method)
     row, = rows_of(probe, "probes")
     assert row["measured"] == pytest.approx(expected, abs=within) and row["reached"] == 1
 

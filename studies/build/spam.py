@@ -25,7 +25,7 @@ from particles.terms import ArithmeticGradients, Gradients
 from particles.walls.fixed import fixed_plates
 from particles.walls.mirror import Odd, Own
 from particles.walls.periodic import periodic
-from particles.weights import Lucy, Monaghan, WendlandC2, WendlandC4, WendlandC6
+from particles.weights import WEIGHTS, Lucy, Monaghan, WendlandC2
 from studies.build.names import START_JITTER
 from studies.build.setting import Ready, check_spacings, check_taken, no_still_layer
 from studies.build.setting import walls as around
@@ -141,10 +141,8 @@ VARIANTS = {v.name: v for v in (
     Variant("less-static-50", fraction=0.5),
     Variant("less-static-90", fraction=0.9),
     Variant("direct-less-static-90", transport=Direct, fraction=0.9),
-    Variant("wendland-c2", weight=WendlandC2),
     Variant("wendland-c2-walls-odd", weight=WendlandC2, walls=images_odd),
-    Variant("wendland-c4", weight=WendlandC4),
-    Variant("wendland-c6", weight=WendlandC6),
+    *(Variant(name, weight=kind) for name, kind in WEIGHTS.items() if kind not in (Lucy, Monaghan)),
     Variant("range-4", h=4.0),
     Variant("range-6", h=6.0),
 )}

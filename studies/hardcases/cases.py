@@ -78,7 +78,7 @@ PROBED = {"shear layer": USUAL | {GRID: TILED},
 TRIED = (GRID, LATTICE, JITTERED, CARRIED, MOVING, "spam", "spam-corrected", *STABLE)
 #: method, case -> more sizes
 LARGER = {**{(name, "Sod"): (200,) for name in STABLE}, (STABLE[0], "Sod"): (200, 400),
-          (STABLE[0], "Mach 10"): (400,), (HELD, "Mach 3 body"): (192,),
+          (STABLE[0], "Mach 10"): (400,), (HELD, "Mach 3 body"): (192,), (STABLE[0], "100 turns"): (32,),
           **{(name, "shocked ripple"): (800,) for name in (STABLE[0], BLENDED)}}
 ROOMY = 2*tubes.HEIGHT  # where gases part, points that move are three spacings apart, and reach half of that
 #: smooth flows: scene, rows, edges; convection of fixed irregular points would take a quarter of an hour
@@ -139,9 +139,9 @@ def sod(method: str, eta: float, L: int, seed: int = 1, step: float = STEPS[0],
     entrant, look = IN_TUBES[method]
     scene = tubes.Tubes(half=L, law=ConstEta(eta, eta))
     of_entrant = 1.0 if method == "spam" else step
-    return kind(table="method_tubes", entrant=entrant, scene=scene, time=scene.time,
+    return kind(into="method_tubes", entrant=entrant, scene=scene, time=scene.time,
                 question=Question(look, tubes.sods_row),
-                columns={"method": method, "eta": eta, "step": step, "L": L, "seed": seed},
+                which={"method": method, "eta": eta, "step": step, "L": L, "seed": seed},
                 seed=seed, step=of_entrant)
 
 
@@ -182,7 +182,7 @@ def highest() -> Iterator[Case]:
 
 def survival(case: str, method: str, entrant: Any, scene: Any, time: float) -> Hard:
     """Of a method in a case."""
-    return Hard(table="hard_runs", columns={"case": case, "method": method, "rows": round(scene.L)},
+    return Hard(into="hard_runs", which={"case": case, "method": method, "rows": round(scene.L)},
                 entrant=entrant, scene=scene, time=time, question=extremes.SURVIVAL)
 
 
@@ -190,7 +190,7 @@ def hard() -> Iterator[Case]:
     """Layers and boxes, in a corner nothing moves but for round-off; numbers that are known."""
     for case, (scene, time) in SITUATIONS.items():
         for rows in ON_GRIDS.get(case, ()):
-            yield OnGrid(table="hard_runs", columns={"case": case, "method": GRID, "rows": rows},
+            yield OnGrid(into="hard_runs", which={"case": case, "method": GRID, "rows": rows},
                          entrant=rows, scene=scene, time=time, question=extremes.SURVIVAL)
         for method, entrant in TAKES.get(case, USUAL).items():
             yield survival(case, method, entrant, scene, time)
@@ -201,7 +201,7 @@ def hard() -> Iterator[Case]:
         yield from (survival(case, name, chosen, scene, later) for name, chosen in variants(*CHEAP).items())
     for case, (scene, time, question, _) in PROBES.items():
         for method, entrant in PROBED[case].items():
-            yield Hard(table="probes", columns={"case": case, "method": method},
+            yield Hard(into="probes", which={"case": case, "method": method},
                        entrant=By(without_plates, entrant), scene=scene, time=time, question=question)
 
 
@@ -218,7 +218,7 @@ def flow(method: str, name: str, rows: int) -> Hard:
     """Of a method in a smooth flow."""
     scene = SCENES[name](rows)
     times, unit = duration(scene)
-    return Hard(table="smooth_flows", columns={"scene": name, "method": method, "rows": rows},
+    return Hard(into="smooth_flows", which={"scene": name, "method": method, "rows": rows},
                 entrant=variant(method), scene=scene, time=times*unit, question=columns.SMOOTHNESS)
 
 
@@ -243,6 +243,6 @@ def trial(case: str, method: str, chosen: Any, rows: int, seed: int = 1, step: f
     scene = with_rows(scene, rows)
     way = runs.of_one_mass if isinstance(chosen, Variant) else runs.hurried
     question = columns.SWITCHING if "entropy-stable" in method else columns.AT_END
-    return Hard(table="trials", entrant=By(way, chosen), scene=scene, time=scene.time, question=question,
-                columns={"case": case, "method": method, "rows": rows, "seed": seed, "step": step},
+    return Hard(into="trials", entrant=By(way, chosen), scene=scene, time=scene.time, question=question,
+                which={"case": case, "method": method, "rows": rows, "seed": seed, "step": step},
                 seed=seed, step=step)

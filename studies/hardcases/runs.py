@@ -54,12 +54,12 @@ class Question(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class Hard(Case):
-    """A row of a table. columns : which run it is.
+    """A row of the table `into`. which : the columns that say which run it is.
 
     entrant : has ready(scene, seed). step : over that of the entrant. time : in the units of the scene.
     """
-    table: str
-    columns: Row
+    into: str
+    which: Row
     entrant: Any
     scene: Any
     time: float
@@ -74,8 +74,8 @@ class Hard(Case):
 
     @property
     def label(self) -> str:
-        words = [f"{value:g}" if isinstance(value, float) else str(value) for value in self.columns.values()]
-        return f"{self.table} {', '.join(words)}"
+        words = [f"{value:g}" if isinstance(value, float) else str(value) for value in self.which.values()]
+        return f"{self.into} {', '.join(words)}"
 
     def run(self, report: Report, folder: Path) -> Outcome:
         try:
@@ -96,7 +96,7 @@ class Hard(Case):
 
     def outcome(self, **values: Any) -> Outcome:
         """The row with these values."""
-        return Outcome({self.table: [{**self.columns, **values}]})
+        return Outcome({self.into: [{**self.which, **values}]})
 
 
 def followed(ready: Ready, time: float, samples: int, look: Callable, report: Report | None = None,

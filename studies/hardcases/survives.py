@@ -1,6 +1,6 @@
 """Claims about a flux that survives."""
 from studies.hardcases.columns import BLENDED, EDGES, HELD, PAIRS, STABLE
-from studies.kit.ask import Value, bench, farthest, largest, largest_of, last, least, one, power, total
+from studies.kit.ask import Value, bench, farthest, largest, largest_of, last, one, power, total
 from studies.kit.claim import Claim
 
 ENDS = "a run ends or it does not"
@@ -120,11 +120,15 @@ CLAIMS = (
                       "radius is off, farthest of two sizes, all starts and steps")
       for case, source, kind in (("Sedov", "Sedov 1959", "blast"), ("Noh", "Noh 1987", "implosion"))),
     *(Claim(id=f"own-stable-turns-{name}", source="KHP95 Sec. V", at_least=least_kept,
-            value=least("trials", "measured", case="100 turns", method=method),
+            value=one("trials", "measured", case="100 turns", rows=16, method=method),
             because="asked for beforehand: centred exchange on a lattice loses 0.2 % in five turns",
             statement=f"{WORDS[plain]}, with the flux, keep an inviscid vortex of 16 rows for a hundred "
                       "turns: K at the end over that of the start")
       for name, (plain, method), least_kept in zip(KEPT, PAIRS.items(), KEPT.values())),
+    Claim(id="own-stable-turns-lattice-32", source="KHP95 Sec. V", at_least=KEPT["lattice"],
+          value=one("trials", "measured", case="100 turns", rows=32, method=STABLE[0]),
+          because="what is asked of 16 rows", after="these keep 97 %",
+          statement="lattice points with the flux, 32 rows: the same"),
     *(Claim(id=f"own-stable-cost-{name}", source="RR98 Eqs 34-36", at_most=most, value=cost(words),
             because="asked for beforehand", evidence="bench/points_speed.csv",
             statement=f"{FLUX} cost {where}: nanoseconds of an evaluation over those without, edge by edge")

@@ -218,5 +218,5 @@ class Profiled(Tube):
     def found(self, course: Course) -> Outcome:
         L, (row,) = self.scene.half, super().found(course).rows.values()
         places = np.vstack([centres(L)/L - 1, course.seen[-1]]).T.tolist() if course.reached == 1 else []
-        profile = [self.columns | dict(zip(("x", *NAMES), place)) for place in places]
+        profile = [self.which | dict(zip(("x", *NAMES), place)) for place in places]
         return Outcome({"method_tubes": row, "method_tube_profiles": profile})
