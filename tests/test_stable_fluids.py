@@ -1,4 +1,4 @@
-"""A flux that survives beyond an ideal gas between mirrors: van der Waals' fluid, contacts, held points."""
+"""An entropy-stable flux beyond an ideal gas between mirrors: van der Waals' fluid, contacts, held points."""
 from dataclasses import replace
 from types import SimpleNamespace
 

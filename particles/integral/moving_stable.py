@@ -1,4 +1,4 @@
-"""Points that move with their triangulation and a flux that survives: `entropy_fluxes`, `positive` steps.
+"""Points that move with their triangulation and an entropy-stable flux: `entropy_fluxes`, `positive` steps.
 
 What passes an edge that moves at {w} passes it at r = w - v, and so the terms keep the sum of V rho s as
 they do on points that stay. Steps are made in parts, as short as it takes, in Python over compiled loops.

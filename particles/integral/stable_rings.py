@@ -1,4 +1,4 @@
-"""What points that move with a flux that survives need of their triangulation, compiled."""
+"""What points that move with an entropy-stable flux need of their triangulation, compiled."""
 from continuum.fluid import sound_speed
 from continuum.jit import jit
 from particles.integral.flips import doubled

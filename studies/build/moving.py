@@ -188,7 +188,7 @@ CARRIAGES = {one.name: one for one in (
 
 
 class StableCarriage(Carriage):
-    """The same with a flux that survives."""
+    """The same with an entropy-stable flux."""
 
     def ready(self, scene: Any, seed: int = 1, fields: tuple | None = None) -> Ready:
         made = super().ready(scene, seed, fields)

@@ -28,7 +28,7 @@ from studies.hardcases.impacts import PROBLEMS, Bow, Frictionless, Ripple, Strip
 from studies.hardcases.runs import GRID, Course, Question, Row, copied, fate
 from studies.hardcases.tubes import EOS, GAMMA
 
-#: methods that have the flux that survives, too
+#: methods that have the entropy-stable flux, too
 EDGES = LATTICE, JITTERED, CARRIED = "fixed-lattice", "fixed-jittered-delaunay", "moving-delaunay"
 PAIRS = {name: f"{name}-entropy-stable" for name in EDGES}
 STABLE = tuple(PAIRS.values())

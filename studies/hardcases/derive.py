@@ -193,7 +193,7 @@ def of_trials(trials: pd.DataFrame) -> Iterator[Row]:
 
 
 def needs(rows: pd.DataFrame) -> Iterator[Row]:
-    """Pairs of methods in the same case: what edges do without the flux that survives, and with it."""
+    """Pairs of methods in the same case: what edges do without the entropy-stable flux, and with it."""
     outcomes = {(case, variant, method): outcome for case, variant, method, outcome
                 in rows[["case", "variant", "method", "outcome"]].to_numpy()}
     for (case, variant, method), outcome in outcomes.items():

@@ -1,4 +1,4 @@
-"""Claims about a flux that survives."""
+"""Claims about an entropy-stable flux."""
 from studies.hardcases.columns import BLENDED, EDGES, HELD, PAIRS, STABLE
 from studies.kit.ask import Value, bench, farthest, largest, largest_of, last, one, power, total
 from studies.kit.claim import Claim
