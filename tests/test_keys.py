@@ -89,6 +89,17 @@ def test_a_new_weight_a_function_that_moves_and_a_docstring_change_no_key(cases,
     assert len(cases) > 50 and not changed(cases, copy)
 
 
+def test_hard_cases_depend_on_no_method_besides_their_own(copy):
+    """One case a table and method: they hold definitions, and look up no names."""
+    one = {(type(case), getattr(case, "table", ""), repr(getattr(case, "entrant", ""))): case
+           for case in hardcases.cases("paper")}
+    for file, first, new in METHODS:
+        edit(copy, file, first, f"{new}, {first}")
+    assert len(one) > 80 and not changed(one.values(), copy)
+    for file, first, new in METHODS:
+        edit(copy, file, f"{new}, {first}", first)
+
+
 def test_cost_depends_on_no_method_besides_its_own(copy):
     """One case a method and scene: new methods change none, a formula of smooth particles theirs."""
     cases = list({case.label.split(", resolution")[0]: case for case in cost.cases("paper")}.values())
@@ -114,17 +125,6 @@ def test_friction_along_edges_is_reached_by_points_and_not_by_smooth_particles(c
     names = {type(case).__name__ for case in cases if reached(case, *friction)}
     assert {"VortexDecay", "LayerDrift"} <= names
     assert not names & {"SpamRun", "SpamGrowth", "CompressibleSteady"}
-
-
-def test_hard_cases_depend_on_no_method_besides_their_own(copy):
-    """One case a table and method: they hold definitions, and look up no names."""
-    one = {(type(case), getattr(case, "table", ""), repr(getattr(case, "entrant", ""))): case
-           for case in hardcases.cases("paper")}
-    for file, first, new in METHODS:
-        edit(copy, file, first, f"{new}, {first}")
-    assert len(one) > 80 and not changed(one.values(), copy)
-    for file, first, new in METHODS:
-        edit(copy, file, f"{new}, {first}", first)
 
 
 def test_a_flux_that_survives_is_reached_by_methods_that_list_it_alone():

@@ -141,8 +141,8 @@ VARIANTS = {v.name: v for v in (
     Variant("less-static-50", fraction=0.5),
     Variant("less-static-90", fraction=0.9),
     Variant("direct-less-static-90", transport=Direct, fraction=0.9),
-    Variant("wendland-c2-walls-odd", weight=WendlandC2, walls=images_odd),
     *(Variant(name, weight=kind) for name, kind in WEIGHTS.items() if kind not in (Lucy, Monaghan)),
+    Variant("wendland-c2-walls-odd", weight=WendlandC2, walls=images_odd),
     Variant("range-4", h=4.0),
     Variant("range-6", h=6.0),
 )}

@@ -7,6 +7,8 @@ import csv
 from pathlib import Path
 from typing import NamedTuple
 
+from particles.weights import WEIGHTS
+
 
 class Word(NamedTuple):
     """What a name stands for, in a sentence, and where it comes from."""
@@ -23,6 +25,9 @@ def of(kind: str) -> dict[str, Word]:
 
 
 METHODS, SCENES, QUANTITIES = of("method"), of("scene"), of("quantity")
+#: smooth particles with a weight that has no line of its own, by the first line of its docstring
+METHODS = {f"spam-{name}": Word(f"spam-{name}", f"spam with {(kind.__doc__ or name).splitlines()[0]} as weight")
+           for name, kind in WEIGHTS.items() if name not in ("lucy", "monaghan")} | METHODS
 #: methods that tables and figures name besides: with another number, or of one study
 VARIATIONS = of("variation")
 #: method in tables that have a variant besides -> the family, and the variant that has the family's own name

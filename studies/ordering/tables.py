@@ -95,7 +95,8 @@ def of_operators(rows: pd.DataFrame) -> dict[str, Any]:
     errors = pd.DataFrame(means).melt(MEANS.key, operators, "operator", "error")
     errors = at_fixed(errors.assign(ratio=errors.h/errors.wavelength), "wavelength")
     floors = errors.groupby(key).error.min().rename("floor")
-    found = pd.DataFrame(slopes(errors, key, "ratio", WAVES)).join(floors, key)
+    known = slopes(errors, key, "ratio", WAVES)
+    found = pd.DataFrame(known, columns=[*key, "slope", "slope_err"]).join(floors, key)
     return {"means": means, "slopes": found.to_dict("records")}
 
 
