@@ -1,4 +1,4 @@
-"""The entropy-stable flux: what it keeps on any closed edges, what its dissipation and its limits may not do."""
+"""The entropy-stable flux: what it keeps on any closed edges, what dissipation and limits may not do."""
 from dataclasses import replace
 from functools import partial
 from types import SimpleNamespace

@@ -1,4 +1,4 @@
-"""The entropy-stable flux on points that move: what its terms keep on edges that move, its steps, its limits."""
+"""The entropy-stable flux on points that move: what is kept on edges that move, steps, limits."""
 from dataclasses import replace
 
 import numpy as np

@@ -1,4 +1,4 @@
-"""Fixed points with an entropy-stable flux where others hold them: on plates, on a body; a blended pressure."""
+"""Fixed points with an entropy-stable flux where others hold them: on plates, on a body; blended pressure."""
 from dataclasses import fields as fields_of
 from dataclasses import replace
 from typing import Any, NamedTuple

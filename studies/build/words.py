@@ -26,7 +26,7 @@ def of(kind: str) -> dict[str, Word]:
 
 METHODS, SCENES, QUANTITIES = of("method"), of("scene"), of("quantity")
 #: smooth particles with a weight that has no line of its own, by the first line of its docstring
-METHODS = {f"spam-{name}": Word(f"spam-{name}", f"spam with {(kind.__doc__ or name).splitlines()[0]} as weight")
+METHODS = {f"spam-{name}": Word(f"spam-{name}", f"spam with {str(kind.__doc__).splitlines()[0]} as weight")
            for name, kind in WEIGHTS.items() if name not in ("lucy", "monaghan")} | METHODS
 #: methods that tables and figures name besides: with another number, or of one study
 VARIATIONS = of("variation")
