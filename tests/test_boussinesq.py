@@ -13,6 +13,7 @@ from continuum.boussinesq import (
     rest,
     roll,
     steady,
+    transient,
 )
 from continuum.boussinesq.projection import solvers
 from continuum.steady import NewtonFailed
@@ -102,7 +103,7 @@ def test_refuses_bad_states_and_runs():
     case = BoussinesqCase(ra=5000, pr=1, rows=16)
     broken = rest(case).q.copy()
     broken[-1] = np.nan
-    with pytest.raises(ValueError, match="T is not finite: start"):
+    with pytest.raises(ValueError, match="T is not finite at t = 0"):
         State(case=case, q=broken)
     with pytest.raises(ValueError, match=r"use state.on\(case\)"):
         State(case=BoussinesqCase(ra=5000, pr=1, rows=32), q=rest(case).q)
@@ -110,6 +111,8 @@ def test_refuses_bad_states_and_runs():
         steady(BoussinesqCase(ra=5000, pr=1, box=SQUARE, rows=16), rest(case))
     with pytest.raises(ValueError, match="0 rolls do not fit"):
         roll(case, 0)
+    with pytest.raises(ValueError, match="until must be positive"):
+        transient(case, roll(case), until=-1.0)
 
 
 def test_newton_that_fails_says_so():

@@ -6,10 +6,10 @@ from boxes import CAVITY, SQUARE, every_box, growth_rates, marched
 from continuum import linear
 from continuum.boussinesq import (
     BoussinesqCase,
-    State,
     rest,
     roll,
     steady,
+    transient,
 )
 from continuum.spectral import cavity
 from studies.kit.fits import richardson
@@ -57,13 +57,12 @@ def test_growth_at_rest_converges_to_linear_theory(ra, pr):
 
 
 @every_box
-def test_a_march_ends_in_the_steady_state_of_newton(box):
+def test_transient_ends_in_the_steady_state_of_newton(box):
     case = BoussinesqCase(ra=8000, pr=0.71, box=box, rows=16)
-    end = State(case=case, q=marched(case, roll(case).q, 300.0, 6000))      # 4 H^2/kappa
-    state = steady(case)
-    assert end.K == pytest.approx(state.K, rel=2e-6)
-    assert end.q == pytest.approx(state.q, abs=1e-6)
-    assert end.rolls == state.rolls == 1
+    series, state = transient(case, roll(case), until=300.0), steady(case)      # 4 H^2/kappa
+    assert series.K[-1] == pytest.approx(state.K, rel=2e-6)
+    assert series.state.q == pytest.approx(state.q, abs=1e-6)
+    assert series.state.rolls == state.rolls == 1
 
 
 def test_newton_forgets_a_start_that_is_not_free_of_divergence():

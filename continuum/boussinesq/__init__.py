@@ -2,8 +2,8 @@
 
     du/dt + u.grad u = -grad p + nu Lap u + T e_y,    dT/dt + u.grad T = kappa Lap T,    div u = 0
 
-in free-fall units (flow.py). `steady` is Newton's method, `Projection` marches in time. They share the
-operators: a march ends in the state that Newton finds on the same grid.
+in free-fall units (flow.py). `steady` is Newton's method, `transient` marches in time. They share the
+operators: a transient ends in the state that Newton finds on the same grid.
 
     state = steady(BoussinesqCase(ra=10_000, pr=1, box=HALF_LAYER, rows=64))
     state.K, state.rolls, state.observe()
@@ -11,4 +11,4 @@ operators: a march ends in the state that Newton finds on the same grid.
 from continuum.boussinesq.flow import BoussinesqCase, State, rest, roll
 from continuum.boussinesq.mac import HALF_LAYER, Box, BoxEdges, End
 from continuum.boussinesq.newton import steady
-from continuum.boussinesq.projection import Projection
+from continuum.boussinesq.projection import transient

@@ -83,6 +83,7 @@ class State:
     """Velocities on faces and temperature in cells of a case's grid, in one vector q; see `parts`."""
     case: BoussinesqCase
     q: np.ndarray = field(repr=False)
+    t: float = 0.0
     changes: tuple[float, ...] = ()         # of Newton's steps, the largest one
 
     def __post_init__(self):
@@ -91,7 +92,8 @@ class State:
                              "numbers: use state.on(case) to change grids")
         if not np.isfinite(self.q).all():
             bad = next(name for name, a in zip("uvT", self.parts) if not np.isfinite(a).all())
-            raise ValueError(f"{bad} is not finite: start from finite fields, with a step that is stable")
+            raise ValueError(f"{bad} is not finite at t = {self.t:.6g}: start from finite fields, with a "
+                             "step that is stable")
 
     @cached_property
     def parts(self) -> list[np.ndarray]:
@@ -132,7 +134,7 @@ class State:
             return replace(self, case=case, changes=())
         old, new = self.case.mac, case.mac
         parts = [resample(f, a, b, old) for f, a, b in zip(self.parts, old.points, new.points)]
-        return State(case=case, q=np.concatenate([f.ravel() for f in parts]))
+        return State(case=case, q=np.concatenate([f.ravel() for f in parts]), t=self.t)
 
 
 def enters(mac: Mac, T: np.ndarray, axis: int, end: int) -> float:

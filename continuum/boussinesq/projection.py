@@ -9,8 +9,13 @@ from typing import NamedTuple
 import numpy as np
 from scipy import fft
 
-from continuum.boussinesq.flow import BoussinesqCase, Equations
+from continuum.boussinesq.flow import BoussinesqCase, Equations, State
 from continuum.boussinesq.mac import Axis, End, Mac
+from continuum.scene import positive
+
+CFL = 0.4           # of a step: two-step explicit advection with some viscosity is stable to 0.8
+LONGEST = 0.05      # step in free-fall times where the flow is too slow to set one
+RECORD = 10         # steps from one record to the next
 
 
 class Modes(NamedTuple):
@@ -64,11 +69,8 @@ def solvers(mac: Mac) -> tuple[Solver, Solver, Solver, Solver]:
 
 
 class Projection(Equations):
-    """Buoyancy and advection extrapolated, diffusion by the trapezoidal rule, pressure by projection.
-
-    Second order in time, stable up to |u| dt/dx + |v| dt/dy = 0.8 with some viscosity. Everything is in
-    increments of q and p: in a steady state nothing is left of splitting.
-    """
+    """Buoyancy and advection extrapolated, diffusion by the trapezoidal rule, pressure by projection. Second
+    order in time. Everything is in increments of q and p: in a steady state nothing is left of splitting."""
 
     def __init__(self, case: BoussinesqCase, q: np.ndarray):
         super().__init__(case)
@@ -98,3 +100,35 @@ class Projection(Equations):
         phi = self.solve[3](div/dt, 0.0, 1.0)
         self.q[:self.flow] -= dt*(self.mac.grad@phi.ravel())
         return phi, div
+
+    def courant(self) -> float:
+        """Largest |u|/dx + |v|/dy in a cell: CFL number over dt."""
+        x, y = self.mac.x, self.mac.y
+        u, v, _ = self.mac.split(np.abs(self.q))
+        return float(np.max(x.back@u/x.h + v@y.mean/y.h))
+
+
+class Transient(NamedTuple):
+    """K at times t, and the last state."""
+    t: np.ndarray
+    K: np.ndarray
+    state: State
+
+
+def transient(case: BoussinesqCase, start: State, *, until: float) -> Transient:
+    """Follow the flow for `until` free-fall times. Raises ValueError: it diverges."""
+    positive(until=until)
+    flow, t = Projection(case, start.on(case).q), 0.0
+    state = State(case=case, q=flow.q)
+    rows = [(t, state.K)]
+    while t < until*(1 - 1e-12):
+        step = min(LONGEST, CFL/max(flow.courant(), CFL/LONGEST))
+        steps = min(RECORD, int(np.ceil((until - t)/step - 1e-9)))
+        step = min(step, (until - t)/steps)
+        for _ in range(steps):
+            flow.advance(step)
+        t += steps*step
+        state = State(case=case, q=flow.q, t=t)
+        rows.append((t, state.K))
+    times, K = np.array(rows).T
+    return Transient(times, K, state)
