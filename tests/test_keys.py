@@ -91,7 +91,7 @@ def test_a_new_weight_a_function_that_moves_and_a_docstring_change_no_key(cases,
 
 def test_hard_cases_depend_on_no_method_besides_their_own(copy):
     """One case a table and method: they hold definitions, and look up no names."""
-    one = {(type(case), getattr(case, "table", ""), repr(getattr(case, "entrant", ""))): case
+    one = {(type(case), getattr(case, "into", ""), repr(getattr(case, "entrant", ""))): case
            for case in hardcases.cases("paper")}
     for file, first, new in METHODS:
         edit(copy, file, first, f"{new}, {first}")

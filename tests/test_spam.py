@@ -91,7 +91,6 @@ SETUPS = {
 
 
 def test_every_equation_of_state_has_a_setup():
-    assert {s.weight for s in SETUPS.values()} <= set(WEIGHTS.values())
     assert {type(s.eos) for s in SETUPS.values()} == {type(eos) for eos in EQUATIONS_OF_STATE.values()}
 
 
