@@ -53,7 +53,7 @@ def beside(tried: Sequence[Any], here: Tables, others: Tables) -> Iterator[str]:
     known = means(others).merge(points, how="left", indicator="own").query("own == 'left_only'")
     limit = known.query("method == 'compressible' and variant == 'flux-form' and resolution == inf")
     right = limit.ke_field.max()
-    yield f"K of the flow at Ra {RA:g}, Pr 1, run now; +- : half of the 95 % interval; %: off the limit"
+    yield f"{title(tried)}; +- : half of the 95 % interval; %: off the limit"
     yield from lines(means(here).merge(points, how="right"), right)
     yield "beside it, from the tables, the largest K first: its kin with the nearest rows, means over seeds;"
     yield "limit: the grid's K at infinitely many rows, which is the right one"
@@ -61,6 +61,13 @@ def beside(tried: Sequence[Any], here: Tables, others: Tables) -> Iterator[str]:
     apart = (kin.resolution - points.resolution.iloc[0]).abs()
     nearest = kin.loc[apart.sort_values(kind="stable").index].drop_duplicates(SAME)
     yield from lines(pd.concat([nearest, limit]), right)
+
+
+def title(tried: Sequence[Any]) -> str:
+    """What the numbers are; of smooth particles with the range of their weight."""
+    ranges = sorted({f"{one.variant.h:g}" for one in tried if isinstance(one.variant, Variant)})
+    of = f", smoothed over a range of {', '.join(ranges)} spacings (Kg)," if ranges else ""
+    return f"K of the flow{of} at Ra {RA:g}, Pr 1, run now"
 
 
 def means(frames: Tables) -> pd.DataFrame:
