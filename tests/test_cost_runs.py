@@ -3,6 +3,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from particles.fields import Fields
 from particles.run import Divergence
 from studies.build import variant
 from studies.cost import tables
@@ -10,7 +11,17 @@ from studies.cost.cases import CONTESTS
 from studies.cost.derive import growth_laws
 from studies.cost.problem import HALVINGS, STRETCH, STRETCHES, WORTH, Problem, Result, best, climb, rms
 from studies.cost.race import Race, SolverRace, SpectralRace
-from studies.cost.rolls import END, LATE, OFTEN, SETTLED, Followed, HeatedLayer
+from studies.cost.rolls import (
+    END,
+    LATE,
+    OFTEN,
+    SETTLED,
+    Followed,
+    HeatedLayer,
+    compared,
+    extended,
+    reference,
+)
 from studies.cost.seconds import Flock, TwoThreads, per_step
 from studies.cost.tables import GRID, LATTICE, MAC, NEAREST, PYPDE, SPECTRAL, WIDE
 
@@ -189,3 +200,16 @@ def test_the_spectral_method_errs_exponentially_less_with_more_functions():
     errors = [abs(row["error"]) for n in rows for row in rows[n]["errors"] if row["quantity"] == "K"]
     assert errors[2] < errors[1]/10 < errors[0]/100 and errors[2] > 1e-6
     assert set(rows[12]["runs"][0]) == set(COLUMNS["runs"]) and rows[12]["runs"][0]["run_s"] > 0
+
+
+def test_rolls_are_compared_where_velocities_differ_least():
+    """At random places, moved by 0.3 heights, an error of 1 % in each velocity is one of 1 %: of 800 numbers,
+    6 % in 95 of 100 samples. The phase of v_y near the middle alone made 15 % of it here."""
+    answer, random = reference((8, 12, 16), 1e4).fields, np.random.default_rng(1)
+    x, V = random.uniform((-1.0, -0.5), (1.0, 0.5), (400, 2)), random.uniform(0.5, 1.5, 400)
+    exact = extended(answer, x + np.array([0.3, 0.0]))
+    v = np.stack([exact.vx, exact.vy], axis=1)
+    noise = 0.01*np.sqrt(np.mean(V*(v**2).sum(axis=1))/np.mean(V)/2)
+    at = Fields(x, v + noise*random.standard_normal(v.shape), exact.rho, exact.T, V)
+    errors = {name: rms(differences) for name, differences in compared(at, answer).items()}
+    assert errors["velocity"] == pytest.approx(0.01, rel=0.06) and errors["temperature"] < 1e-3     # 0.01/400^(1/2)/pi heights
