@@ -147,8 +147,8 @@ class HeatedLayer(NamedTuple):
 def compared(at: Fields, answer: tuple[NodeFields, ...]) -> Residuals:
     """Velocity and temperature, the latter relative to the rms of what differs from 1.
 
-    Rolls may lie anywhere: they are compared where velocities differ least. Where to look says the phase of v_y
-    near the middle, a sum over irregular points, which would add a third to the error of moving ones.
+    Rolls may lie anywhere: they are compared where velocities differ least, near to where the phase of v_y in
+    the middle has them. That is a sum over irregular points and alone adds a third to their error.
     """
     def errors(shift: float) -> Residuals:
         exact = extended(answer, at.x + np.array([shift, 0.0]))
