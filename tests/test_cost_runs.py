@@ -10,7 +10,7 @@ from studies.cost import tables
 from studies.cost.cases import CONTESTS
 from studies.cost.derive import growth_laws
 from studies.cost.problem import HALVINGS, STRETCH, STRETCHES, WORTH, Problem, Result, best, climb, rms
-from studies.cost.race import Race, SolverRace, SpectralRace
+from studies.cost.race import Race
 from studies.cost.rolls import (
     END,
     LATE,
@@ -23,6 +23,7 @@ from studies.cost.rolls import (
     reference,
 )
 from studies.cost.seconds import Flock, TwoThreads, per_step
+from studies.cost.solvers import SolverRace, SpectralRace
 from studies.cost.tables import GRID, LATTICE, MAC, NEAREST, PYPDE, SPECTRAL, WIDE
 
 COLUMNS = {table.name: table.columns for table in tables.TABLES}

@@ -21,9 +21,10 @@ from studies.build.spam import OF_LIMIT
 from studies.cost import contestants as of
 from studies.cost import rolls
 from studies.cost.contestants import ExactFlow
-from studies.cost.race import Entry, Race, SolverRace, SpectralRace, by_pypde, solved
+from studies.cost.race import Entry, Race
 from studies.cost.rolls import LOWER_RA, HeatedLayer
 from studies.cost.seconds import Flock, Resident, StepTime, TwoThreads, Web
+from studies.cost.solvers import SolverRace, SpectralRace, by_pypde, solved
 from studies.cost.tables import CARRIED, SPECTRAL
 from studies.kit.case import Case
 
@@ -122,6 +123,7 @@ CONTESTS = {
     "convection": Contest(HeatedLayer(), (
         Team(variants("grid"), rolls.on_grid, 3.5e-5, (8, 12, 16, 20, 24, 32, 40, 48, 64, 88)),
         Team({SPECTRAL: None}, solved, 0.0, MODES, kind=SpectralRace),
+        Team({"py-pde": None}, by_pypde, 4e-5, (*rungs(12, 16), 20, *rungs(24, 48)), kind=SolverRace),
         Team(LATTICES, rolls.on_points, 2.6e-4, rungs(12, 48)),
         Team(variants("fixed-jittered-plates"), rolls.on_points, 2.6e-4, (*rungs(12, 32), 40), TWO),
         Team(TRIANGLES, rolls.on_triangles, 1.7e-4, (8, 10, *rungs(24, 48)), THREE),
@@ -129,7 +131,8 @@ CONTESTS = {
         Team(TRIANGLES, rolls.on_triangles_long, 4e-4, NEAR, NINE),
         Team(variants("moving"), rolls.on_moving, 1e-3, (10, *rungs(12, 32), 44), first=1.0),
         Team(variants("spam"), rolls.of_particles, 3.4e-4, (16, 20, 25, 30), first=2*OF_LIMIT),
-        Team(variants("spam-corrected"), rolls.of_particles, 3.4e-4, (20, 25, 30, 36, 44), first=2*OF_LIMIT),
+        Team(variants("spam-corrected", "spam-sumB"), rolls.of_particles, 3.4e-4, (20, 25, 30, 36, 44),
+             first=2*OF_LIMIT),
         Team(variants("spam-monaghan", "spam-wendland-c2", "spam-less-static-50"), rolls.of_particles, 3.4e-4,
              (12, 16, 20, 25), first=2*OF_LIMIT))),
     "convection-5000": Contest(HeatedLayer(ra=LOWER_RA), (

@@ -29,6 +29,7 @@ FAMILIES = {
     "fixed-lattice": ("#0072B2", "o"),
     "fixed-jittered": ("#56B4E9", "^"),
     "spam-corrected": ("#CC79A7", "v"),
+    "spam-sumB": ("#999933", "h"),
     "spam": ("#D55E00", "s"),
     "moving": ("#009E73", "D"),
     "LAMMPS sph": ("#666666", "<"),

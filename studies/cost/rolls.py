@@ -7,7 +7,7 @@ Both are extrapolated. A steady state is reached once K, averaged over a free-fa
 end as the quantity's own error; from there on a flow that fluctuates is averaged until the statistical error
 is as small.
 """
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cache, partial
 from typing import Any, NamedTuple
 
@@ -28,7 +28,7 @@ from studies.build.names import START_ENERGY
 from studies.build.setting import Ready
 from studies.build.unguarded import Unguarded
 from studies.cost.contestants import smoothed, with_triangles
-from studies.cost.problem import Judge, Problem, Residuals, Result, of_grid, of_method, relative, rms
+from studies.cost.problem import NONE, Judge, Problem, Residuals, Result, of_grid, of_method, relative, rms
 from studies.kit.stats import Measured, settled
 
 RA, LOWER_RA = 1e4, 5000.0
@@ -110,11 +110,15 @@ class HeatedLayer(NamedTuple):
 
     def result(self, done: Followed, at: Fields, factor: float) -> Result:
         """The same of fields with places in heights."""
+        return self.of_energy(done, factor, compared(at, self.answer.fields))
+
+    def of_energy(self, done: Followed, factor: float = 1.0, others: Mapping[str, Any] = NONE) -> Result:
+        """Of K, and errors of other quantities."""
         answer = self.answer
         last = self.last(done)*(1/factor/answer.ke)
         early = CubicSpline(done.t, done.ke/factor)(TIMES)
         history = (early - answer.history)/rms(answer.history)
-        residuals = {"K": np.array([last.value - 1]), "K(t)": history, **compared(at, answer.fields)}
+        residuals = {"K": np.array([last.value - 1]), "K(t)": history, **others}
         uncertain = {"K": last.err, "K(t)": answer.history_known}
         return Result(residuals, uncertain, self.share(done, residuals))
 

@@ -21,7 +21,7 @@ CARRIED = "moving-delaunay"
 BOUSSINESQ, LAMMPS = "boussinesq", {"sph": "LAMMPS sph", "rheo": "LAMMPS RHEO"}
 METHODS = (GRID, MAC, PYPDE, SPECTRAL, NEAREST, LATTICE, WIDE, JITTERED, "fixed-jittered-delaunay",
            "fixed-jittered-0.2-plates", LUCY, "spam-monaghan", "spam-wendland-c2", "spam-less-static-50",
-           "spam-corrected", CARRIED, MOVING, *LAMMPS.values())
+           "spam-corrected", "spam-sumB", CARRIED, MOVING, *LAMMPS.values())
 
 RUN = "scene method resolution seed"
 SERIES = "scene quantity method"
