@@ -160,6 +160,16 @@ def test_errors_in_a_slow_vortex_are_those_of_friction(kind, name, share):
     assert set(row) == set(COLUMNS["runs"]) and row["run_s"] > 0 and row["setup_s"] > 0
 
 
+def test_convection_of_pypde_is_of_second_order():
+    """Between 8 and 16 rows; 0.3: terms of fourth order are a tenth of the error at 8."""
+    entry, errors = CONTESTS["convection"].entry(PYPDE)._replace(flow=HeatedLayer(rows=(16, 24, 32))), []
+    for rows in (8, 16):
+        made = SolverRace(scene="convection", entry=entry, resolution=rows).run(lambda done: None, None).rows
+        errors += [row["error"] for row in made["errors"] if row["quantity"] == "K"]
+        assert 0 < made["errors"][0]["share"] < 1
+    assert np.log2(errors[0]/errors[1]) == pytest.approx(2, abs=0.3)
+
+
 @pytest.mark.parametrize("scene", ["conduction", "couette"])
 @pytest.mark.parametrize("name", [GRID, NEAREST, LATTICE, WIDE])
 def test_errors_between_plates_are_of_second_order(scene, name):
