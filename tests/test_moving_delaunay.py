@@ -140,7 +140,7 @@ def test_mass_momentum_energy_and_volume_are_kept_to_round_off(scene, kept):
 
 
 def test_a_stream_flows_past_a_body_whose_inside_is_left_out():
-    """As its twin steps, to the third flip; over 2000 steps mass, energy and volume stay to round-off: the body
+    """As its twin steps, to the third flip; in 2000 steps mass, energy and volume stay to round-off: the body
     takes no heat and does no work."""
     size, radius = (14.0, 12.0), 2.6
     x, edge = with_disc(shifted(*size, 0.25, 1), radius)
