@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from continuum.jit import formula, jit
-from particles.integral.triangulation import triangles
+from particles.integral.triangulation import outside, triangles
 from particles.neighbours import u32, u64
 from particles.pairs import Stored
 
@@ -21,6 +21,7 @@ FLAT = -1e-9
 ROOM, POINTS = 7, 16
 #: spacings: wider ones cost a third more, neighbours come in fewer runs through memory
 STRIP = 2.0
+NO_BODY = np.empty(0, int)
 LEAST = 8.0         # spacings along a periodic axis: in a narrower box a point is a neighbour twice
 
 
@@ -35,9 +36,11 @@ class Rings(NamedTuple):
     end: np.ndarray
 
 
-def rings(x: np.ndarray, size: tuple[float, float], closed: tuple[bool, bool]) -> Rings:
+def rings(x: np.ndarray, size: tuple[float, float], closed: tuple[bool, bool],
+          body: np.ndarray = NO_BODY) -> Rings:
     """Delaunay's triangulation of points (n, 2) in a box; `closed` says along which axes it ends at sides.
 
+    It ends, too, at the points `body` of a convex one.
     Raises ValueError: a periodic box less than LEAST spacings wide; what `triangulation` refuses.
     """
     spacing = float(np.sqrt(size[0]*size[1]/len(x)))
@@ -46,6 +49,7 @@ def rings(x: np.ndarray, size: tuple[float, float], closed: tuple[bool, bool]) -
             raise ValueError(f"the box is {length/spacing:.3g} spacings wide along {name}, where it is "
                              f"periodic: a moving triangulation needs {LEAST:g}, or a point meets its image")
     corner, _ = triangles(x, size, closed)      # counterclockwise
+    corner = corner[outside(corner, body)]
     spokes = np.concatenate([corner, np.roll(corner, -1, axis=1), np.roll(corner, -2, axis=1)])
     spokes = spokes[np.lexsort((spokes[:, 1], spokes[:, 0]))]
     count = np.bincount(spokes[:, 0], minlength=len(x))

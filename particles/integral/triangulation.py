@@ -28,8 +28,13 @@ def delaunay(points: Points, weight: Any = None) -> Edges:
 def around(points: Points, body: np.ndarray) -> Edges:
     """The same without triangles that have all corners on a convex body: closed on all points but these."""
     corner, x = _simplices(points, points.box)
-    fluid = ~np.isin(corner, body).all(axis=1)
+    fluid = outside(corner, body)
     return _assembled(points, corner[fluid], x[fluid])
+
+
+def outside(corner: np.ndarray, body: np.ndarray) -> np.ndarray:
+    """Which of the triangles (T, 3) have not all corners on a convex body, (T,)."""
+    return ~np.isin(corner, body).all(axis=1)
 
 
 def between(x: np.ndarray, width: float, height: float, closed: tuple[bool, bool] = (False, True)) -> Edges:

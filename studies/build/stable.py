@@ -1,21 +1,26 @@
-"""Fixed points with an entropy-stable flux where others hold them: on plates, on a body; blended pressure."""
+"""Points with an entropy-stable flux where others hold them: on plates, around a body; blended pressure."""
 from dataclasses import fields as fields_of
 from dataclasses import replace
 from typing import Any, NamedTuple
+
+import numpy as np
 
 from continuum.scene import Torus
 from particles.integral.bodies import held, with_disc
 from particles.integral.entropy_fluxes import BlendedPressure, Dissipation, Logarithmic
 from particles.integral.entropy_stable import StableLayer, StableStream
 from particles.integral.layer import Layer
+from particles.integral.moving_delaunay import MovingDelaunay
+from particles.integral.moving_stable import StableDelaunay
 from particles.integral.points import of_positions
+from particles.integral.rings import rings
 from particles.integral.stream import Stream
 from particles.integral.triangulation import around, delaunay
 from studies.build.fixed import OF_LIMIT, Scheme
 from studies.build.setting import CannotTake, Ready, check_spacings, no_still_layer, shifted, stepped
 
 #: kinds with the flux
-WITH_FLUX: dict[type, type] = {Stream: StableStream, Layer: StableLayer}
+WITH_FLUX: dict[type, type] = {Stream: StableStream, Layer: StableLayer, MovingDelaunay: StableDelaunay}
 
 
 def with_flux(made: Ready) -> Ready:
@@ -60,10 +65,22 @@ class Around(NamedTuple):
         check_spacings(scene)
         box = scene.width, scene.L
         x, edge = with_disc(shifted(*box, self.size, seed), scene.disc)
-        method = Stream(x=x, edges=around(of_positions(x, box), edge), eos=scene.eos, law=scene.law,
-                        held=held(edge), solid=False)
+        method = self.around(scene, x, edge)
         made = stepped(method, method.state(*(fields or scene.fields(x))), OF_LIMIT)
         return with_flux(made) if self.flux else made
+
+    def around(self, scene: Any, x: np.ndarray, edge: np.ndarray) -> Any:
+        """The method on points x (n, 2), of which some are on the edge."""
+        edges = around(of_positions(x, (scene.width, scene.L)), edge)
+        return Stream(x=x, edges=edges, eos=scene.eos, law=scene.law, held=held(edge), solid=False)
+
+
+class Past(Around):
+    """The same on points that the stream carries past the disc."""
+
+    def around(self, scene: Any, x: np.ndarray, edge: np.ndarray) -> Any:
+        web = rings(x, (scene.width, scene.L), (False, False), edge)
+        return MovingDelaunay(x=x, rings=web, held=held(edge), eos=scene.eos, law=scene.law)
 
 
 STABLE = {one.name: one for one in (
@@ -74,4 +91,5 @@ STABLE = {one.name: one for one in (
 BODIES = {one.name: one for one in (
     Around("fixed-jittered-plates"),
     Around("fixed-jittered-plates-entropy-stable", flux=True),
+    Past("moving-delaunay"), Past("moving-delaunay-entropy-stable", flux=True),
 )}

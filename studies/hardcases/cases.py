@@ -10,6 +10,7 @@ from particles.weights import Lucy, Monaghan
 from studies.build import SCENES, variant, variants
 from studies.build.answers import duration, with_rows
 from studies.build.spam import PRINTED, Variant
+from studies.build.stable import BODIES
 from studies.hardcases import columns, extremes, high_ra, impacts, printed, runs, tubes
 from studies.hardcases.columns import BLENDED, CARRIED, COLUMNS, EDGES, HELD, JITTERED, LATTICE, PAIRS, STABLE
 from studies.hardcases.extremes import LAYERS, PROBES, ROWS, SITUATIONS, OnGrid, falls
@@ -227,7 +228,8 @@ def trials() -> Iterator[Case]:
     for case, column in COLUMNS.items():
         for method, chosen in (column.only or variants(*TRIED)).items():
             small, *large = *column.sizes, *LARGER.get((method, case), ())
-            chance = not column.only and "lattice" not in method and method != GRID
+            several = not column.only or column.only is BODIES
+            chance = several and "lattice" not in method and method != GRID
             for seed in (1, 2, 3)[:3 if chance else 1]:
                 yield trial(case, method, chosen, small, seed=seed)
             if not column.only:
