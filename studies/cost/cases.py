@@ -141,7 +141,7 @@ CONTESTS = {
         Team(TRIANGLES, rolls.on_triangles_long, 4e-4, NEAR, NINE),
         Team(variants("fixed-lattice-h1.2"), rolls.on_points, 2.6e-4, (8, 10, *rungs(12, 48))))),
 }
-#: of size quick: scene -> flow with a coarser reference, methods, resolutions
+#: size quick: scene -> flow with a coarser reference, methods, resolutions
 QUICK: dict[str, tuple[Any, tuple[str, ...], tuple[int, ...]]] = {
     "taylor-green": (ExactFlow(TaylorGreen(L=16, mach=0.2)), ("fixed-lattice-h1.2", "mac"), (16, 20, 24)),
     "sound": (CONTESTS["sound"].flow, ("fixed-lattice-h1.2",), (16, 24, 32)),

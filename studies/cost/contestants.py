@@ -25,7 +25,7 @@ KNOWN = {0.05: 1.4e-6, 0.2: 2.9e-5}
 #: one of the four vortices between free-slip walls of equal temperature: the flow beyond is its mirror image
 FREE = BoxEdges(flow=End.MIRROR, heat=End.WALL)
 CELL = Box(width=1.0, sides=BoxEdges(flow=End.MIRROR, heat=End.MIRROR), plates=FREE)
-CFL = 0.8           # of two-step advection with some viscosity: `projection.CFL_LIMIT`
+CFL = 0.8           # Courant number of two-step advection with some viscosity: `projection.CFL_LIMIT`
 
 
 # --- flows --------------------------------------------------------------------------------------------------

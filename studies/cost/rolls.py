@@ -35,7 +35,7 @@ RA, LOWER_RA = 1e4, 5000.0
 END, EARLY, LATE = 90.0, 30.0, 40.0     # free-fall times: ends of runs and of K(t), start of averages
 SETTLED = 60.0      # start of averages where 1 % counts: K of the grid is off by 1 % at 47, 0.2 % at 60
 OFTEN = 4           # samples per free-fall time
-TIMES = np.arange(1, round(EARLY*OFTEN))/OFTEN      # of K(t)
+TIMES = np.arange(1, round(EARLY*OFTEN))/OFTEN      # free-fall times at which K(t) is compared
 MIDDLE = 1/8        # of the height above and below the middle: there the position of rolls is measured
 NEAR, EXACT = 0.1, 1e-7     # heights: range of the search around this position, and its accuracy
 #: end of runs whose K has an error of about 1 %: the mean from 60 to 90 is uncertain by 0.5 %, while nine

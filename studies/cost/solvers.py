@@ -26,7 +26,7 @@ from studies.cost.tables import with_err
 from studies.kit.case import Outcome, Report
 from studies.kit.stats import Measured
 
-SAMPLES = 5         # of the seconds of py-pde in the vortex: one for each of as many equal parts of a run
+SAMPLES = 5         # of the seconds of py-pde in the vortex, one for each equal part of a run
 
 
 # --- the spectral method: n functions along an axis against more of them ---------------------------------

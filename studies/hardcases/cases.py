@@ -91,7 +91,7 @@ TALL = ("Ra 1e5", "Ra 1e6", "Ra 1e7", "Ra 1e8", "Prandtl 0.01", "Prandtl 100", "
 LENGTHS = (24, 36, 48, 72, 96, 144, 192)
 MORE_SEEDS = 16         # seeds of the longest viscous tube of smooth particles: it rings near the limit
 MORE_MOVING = 12        # seeds of that tube with moving points, whose error is near the limit
-MORE_STARTS = 8         # of the search for the highest Ra of moving points: limits scatter at the usual step
+MORE_STARTS = 8         # starts of the search with moving points at the usual step, whose limits scatter
 #: shocked interface: scale, k a, number of seeds
 RIPPLES = ((1.0, 0.25, 3), (1.0, 0.75, 3), (2.0, 0.25, 8), (4.0, 0.25, 7))
 #: case -> rows of grids between plates; more where three grids do not decide what is off by a tenth

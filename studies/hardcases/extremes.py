@@ -23,7 +23,7 @@ from studies.kit.fits import line
 
 ROWS = 16
 SOUND = sqrt(2)
-SPEED = 0.1         # of the vortex: Mach number 0.07
+SPEED = 0.1         # largest velocity of the vortex: Mach number 0.07
 U, BEGIN = 0.15, 0.01       # of the shear flow: speed, Mach number 0.1; size of its wave at the start over U
 Velocities = tuple[np.ndarray, np.ndarray]
 

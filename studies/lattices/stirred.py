@@ -148,7 +148,7 @@ class Stirred(Case):
 
 @dataclass(frozen=True, kw_only=True)
 class StirredMaker(Stirred):
-    """One flow of today's smooth particles."""
+    """One flow by today's smooth particles, whose stress of pressures is not measured."""
 
     @property
     def pushed(self) -> type:
