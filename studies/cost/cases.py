@@ -5,9 +5,9 @@ sound          a wave of small amplitude for two periods
 conduction, couette   between plates, from smooth starts; nothing depends on x
 convection     Rayleigh-Benard at Ra = 10 000, and 5000, from KHP95's rolls
 
-Every method runs at rising resolutions, each at the longest step that is good enough beside the error of its
-space (rule: problem.py; py-pde's is by its formula). CPU seconds of one thread, medians of repeats, without
-compiling. A case takes DEAREST seconds at most, all take TOGETHER. `paper` takes an hour, `quick` minutes.
+Every method runs at rising resolutions, each with the longest step whose error is small beside that of space
+(rule: problem.py; py-pde's step is by its formula). Costs are CPU seconds of one thread, medians of repeats,
+without compiling. A case takes DEAREST seconds at most, all take TOGETHER. `quick` takes minutes.
 """
 from collections.abc import Callable, Collection, Iterator, Mapping
 from itertools import product
@@ -43,7 +43,7 @@ def rungs(least: int, most: int) -> tuple[int, ...]:
 
 
 class Team(NamedTuple):
-    """Methods that meet a flow in one way, at rising resolutions. Fields as of `Entry`."""
+    """Methods set up in a flow in the same way, and their resolutions. Other fields are those of `Entry`."""
     methods: Mapping[str, Any]
     make: Callable
     price: float
@@ -58,7 +58,7 @@ class Team(NamedTuple):
 
 
 class Contest(NamedTuple):
-    """A flow and all that take part in it."""
+    """A flow and all methods that take part in it."""
     flow: Any
     teams: tuple[Team, ...]
 
@@ -68,7 +68,7 @@ class Contest(NamedTuple):
 
     def cases(self, scene: str, names: Collection[str] = (), resolutions: Collection[int] = (),
               **more: Any) -> Iterator[Race]:
-        """All; or some methods at some resolutions."""
+        """All races, or those of some methods or at some resolutions."""
         for team in self.teams:
             chosen = [name for name in team.methods if name in (names or team.methods)]
             for name, rows, seed in product(chosen, resolutions or team.resolutions, team.seeds):
@@ -79,15 +79,15 @@ class Contest(NamedTuple):
 LATTICES = variants("fixed-lattice-h1.2", "fixed-lattice", "fixed-lattice-h3")
 TRIANGLES = variants(CARRIED)
 PARTICLES = variants("spam", "spam-monaghan", "spam-wendland-c2")
-#: as disordered as moving points start
+#: points that stay, as disordered as moving points at the start
 SHAKEN = {"fixed-jittered-0.2-plates": variant("fixed-jittered-plates")._replace(size=START_JITTER)}
-#: in growth and memory
+#: methods whose growth of seconds and whose memory are measured
 MOVERS, STAYERS = variants("spam", CARRIED), variants("fixed-lattice")
-FAR_OFF = 16, *rungs(32, 96)        # where particles err alike at any resolution
+FAR_OFF = 16, *rungs(32, 96)        # resolutions of particles whose error is alike at all of them
 
 
 def between(name: str, *more: Team) -> Contest:
-    """Plates."""
+    """The contest in a flow between plates."""
     return Contest(ExactFlow(BetweenPlates(flow=FLOWS[name], L=16)), (
         Team(variants("grid"), of.of_mean_one, 8.7e-6, rungs(8, 96)),
         Team(LATTICES, of.points, 1.6e-5, rungs(8, 96)),
@@ -96,8 +96,8 @@ def between(name: str, *more: Team) -> Contest:
         Team(PARTICLES, of.restless, 0.0, FAR_OFF, first=0.7), *more))
 
 
-#: scene -> who takes part: a new method is a line, a new scene an entry; at half the Rayleigh number those
-#: that decide what points cost
+#: scene -> contest: a new method is a line, a new scene an entry; convection at half the Rayleigh number has
+#: only the methods that decide what points cost
 CONTESTS = {
     "taylor-green": Contest(ExactFlow(TaylorGreen(L=16)), (
         Team(variants("fixed-lattice-h1.2", "fixed-lattice-h3"), of.points, 1.3e-5, rungs(16, 64)),
@@ -105,7 +105,7 @@ CONTESTS = {
         Team(variants("fixed-jittered-delaunay"), of.points, 1.3e-5, rungs(16, 64), THREE),
         Team(TRIANGLES, of.carried, 1.3e-5, rungs(12, 64), THREE),
         Team(variants("moving"), of.points, 1.8e-4, rungs(12, 48), TWO),
-        Team(PARTICLES, of.trembling, 1e-4, rungs(12, 32), first=0.7),     # far off at any
+        Team(PARTICLES, of.trembling, 1e-4, rungs(12, 32), first=0.7),     # all far off
         Team(variants("grid"), of.on_grid, 8e-6, rungs(16, 128)),
         Team({"mac": None}, of.on_mac, 0.0, rungs(16, 64)),
         Team({"py-pde": None}, by_pypde, 3e-5, rungs(16, 64), kind=SolverRace))),
@@ -141,7 +141,7 @@ CONTESTS = {
         Team(TRIANGLES, rolls.on_triangles_long, 4e-4, NEAR, NINE),
         Team(variants("fixed-lattice-h1.2"), rolls.on_points, 2.6e-4, (8, 10, *rungs(12, 48))))),
 }
-#: of size quick: scene -> flow with a coarser reference, methods, resolutions
+#: size quick: scene -> flow with a coarser reference, methods, resolutions
 QUICK: dict[str, tuple[Any, tuple[str, ...], tuple[int, ...]]] = {
     "taylor-green": (ExactFlow(TaylorGreen(L=16, mach=0.2)), ("fixed-lattice-h1.2", "mac"), (16, 20, 24)),
     "sound": (CONTESTS["sound"].flow, ("fixed-lattice-h1.2",), (16, 24, 32)),
@@ -157,7 +157,7 @@ def cases(size: str) -> list[Case]:
 
 
 def paper() -> Iterator[Case]:
-    """All; two threads from 20 000 points on, memory of a million."""
+    """All contests, growth of seconds, two threads from 20 000 points on, memory of a million points."""
     for scene, contest in CONTESTS.items():
         yield from contest.cases(scene)
     yield from growth(ROWS)
@@ -176,7 +176,7 @@ def quick() -> Iterator[Case]:
 
 
 def growth(sizes: tuple[int, ...], **more: Any) -> Iterator[StepTime]:
-    """Steps of many points."""
+    """Seconds of a step of so many rows of points."""
     for rows in sizes:
         for name, chosen in MOVERS.items():
             yield StepTime(name=name, variant=chosen, kind=Flock, rows=rows, **more)

@@ -25,7 +25,7 @@ KNOWN = {0.05: 1.4e-6, 0.2: 2.9e-5}
 #: one of the four vortices between free-slip walls of equal temperature: the flow beyond is its mirror image
 FREE = BoxEdges(flow=End.MIRROR, heat=End.WALL)
 CELL = Box(width=1.0, sides=BoxEdges(flow=End.MIRROR, heat=End.MIRROR), plates=FREE)
-CFL = 0.8           # of two-step advection with some viscosity: `projection.CFL_LIMIT`
+CFL = 0.8           # Courant number of two-step advection with some viscosity: `projection.CFL_LIMIT`
 
 
 # --- flows --------------------------------------------------------------------------------------------------
@@ -43,11 +43,11 @@ class ExactFlow(NamedTuple):
         return with_rows(self.example, size)
 
     def judge(self, scene: Any, see: Callable[[np.ndarray], Fields]) -> Judge:
-        """Of the state at the end, whose fields `see` gives."""
+        """Judge of the state at the end. see : state -> fields."""
         return lambda state: Result(self.residuals(scene, see(state)))
 
     def residuals(self, scene: Any, at: Fields) -> Residuals:
-        """Of fields at the end; of temperatures relative to what differs from 1."""
+        """Residuals of fields at the end; those of temperature are relative to T - 1."""
         exact, errors = answer(scene, at.x), {}
         if "vx" in exact:
             v = np.stack([exact[name] for name in ("vx", "vy") if name in exact], axis=1)
@@ -60,7 +60,7 @@ class ExactFlow(NamedTuple):
 
 
 def decay(scene: TaylorGreen, V: np.ndarray, v: np.ndarray) -> np.ndarray:
-    """The error of the decay of a vortex, from velocities (n, 2) of volumes V at the end."""
+    """Relative error of the decay of a vortex (1,), from velocities (n, 2) of volumes V at the end."""
     squares = (v**2).sum(axis=1)/scene.speed**2
     measured = np.log(V.sum()/2/(V@squares))/(2*DECAYS)
     return np.array([measured/solved(scene.mach).decay - 1])
@@ -68,7 +68,7 @@ def decay(scene: TaylorGreen, V: np.ndarray, v: np.ndarray) -> np.ndarray:
 
 @singledispatch
 def uncertainty(scene: Any) -> float:
-    """Of the exact answer, relative: what a wave of a small amplitude steepens."""
+    """Relative uncertainty of the exact answer; by default that of sound, which steepens a little."""
     return 1e-4
 
 
@@ -79,7 +79,7 @@ def _(scene: TaylorGreen) -> float:
 
 @uncertainty.register
 def _(scene: BetweenPlates) -> float:
-    """What fewer Chebyshev points make of the answer."""
+    """Change of the answer with fewer Chebyshev points."""
     s = np.linspace(0, 1, 200)
     row = 2 if scene.flow.U else 3
     fine, coarse = plates.fields(scene.flow, s)[row], plates.fields(scene.flow, s, plates.COARSER)[row]
@@ -89,39 +89,39 @@ def _(scene: BetweenPlates) -> float:
 # --- points and particles -----------------------------------------------------------------------------------
 
 def points(flow: ExactFlow, method: Any, size: int, seed: int) -> Problem:
-    """Points that stay or move, as they are built."""
+    """Problem of points that stay or move, from their usual start."""
     scene = flow.scene(size)
     return in_flow(flow, scene, method.ready(scene, seed))
 
 
 def on_lattice(flow: ExactFlow, method: Any, size: int, seed: int) -> Problem:
-    """Moving points from a lattice: in sound jitter would be louder than the wave."""
+    """Problem of moving points that start on a lattice: in sound jitter would be louder than the wave."""
     scene = flow.scene(size)
     x = lattice((scene.width, scene.L)).x
     return in_flow(flow, scene, method.ready(scene, seed, x=x))
 
 
 def carried(flow: ExactFlow, method: Any, size: int, seed: int) -> Problem:
-    """Points that move with their triangulation."""
+    """Problem of points that move with their triangulation."""
     return with_triangles(points(flow, method, size, seed))
 
 
 def with_triangles(problem: Problem) -> Problem:
-    """Steps are timed from the start, whose triangulation the method has; two steps give two sets of points,
-    which lie as evenly."""
+    """The problem with steps timed from the start, whose triangulation the method has. Two steps give two
+    sets of points, which are equally disordered."""
     def timed(state: np.ndarray, dt: float, steps: int) -> Any:
         return problem.advance(problem.start, dt, steps)
     return problem._replace(chaotic=True, timed=timed)
 
 
 def in_flow(flow: ExactFlow, scene: Any, ready: Ready) -> Problem:
-    """Fields as the method has them."""
+    """Problem of a method that is judged by its own fields."""
     judge = flow.judge(scene, ready.method.fields)
     return of_method(ready.method, ready.start, scene.time, judge, known=flow.known)
 
 
 def particles(flow: ExactFlow, method: Any, size: int, seed: int) -> Problem:
-    """Smooth particles at places that suit the flow; limits of lattice sums are firm."""
+    """Problem of smooth particles placed by the density of the flow; step limits by lattice sums are firm."""
     scene = flow.scene(size)
     ready = of_mass(scene, method, seed)
 
@@ -131,18 +131,18 @@ def particles(flow: ExactFlow, method: Any, size: int, seed: int) -> Problem:
 
 
 def of_mass(scene: Any, method: Any, seed: int) -> Ready:
-    """Particles of one mass."""
+    """A method of particles of one mass in a scene."""
     x, fields = of_one_mass(scene, seed)
     return method.ready(scene, seed, x=x, fields=fields)  # type: ignore[no-any-return]
 
 
 def restless(flow: ExactFlow, method: Any, size: int, seed: int) -> Problem:
-    """The same where two steps give two flows."""
+    """As `particles`, in flows where two steps give two flows."""
     return particles(flow, method, size, seed)._replace(chaotic=True)
 
 
 def trembling(flow: ExactFlow, method: Any, size: int, seed: int) -> Problem:
-    """The same where they tremble: the smoothed field counts    [KHP95, Sec. VI]"""
+    """As `restless`, where particles are noisy: the smoothed field is judged    [KHP95, Sec. VI]"""
     scene = flow.scene(size)
     ready = of_mass(scene, method, seed)
     judge = flow.judge(scene, partial(smoothed, ready.method))
@@ -150,7 +150,7 @@ def trembling(flow: ExactFlow, method: Any, size: int, seed: int) -> Problem:
 
 
 def smoothed(method: Spam, state: np.ndarray) -> Fields:
-    """The smoothed field where the particles are, each of which counts as much."""
+    """The smoothed fields at the particles, with equal volumes."""
     sums, ordered, _ = method.look(state)
     x, y, *_ = state
     at = fields_at(sums, ordered, x, y)
@@ -163,27 +163,27 @@ def smoothed(method: Spam, state: np.ndarray) -> Fields:
 
 
 def on_grid(flow: ExactFlow, form: Any, size: int, seed: int, first: np.ndarray | None = None) -> Problem:
-    """The compressible grid in time."""
+    """Problem of the compressible grid in time."""
     scene = flow.scene(size)
     ready = form.ready(scene, first=first)
     return of_grid(ready, scene.time, flow.judge(scene, ready.method.fields), known=flow.known)
 
 
 def of_mean_one(flow: ExactFlow, form: Any, size: int, seed: int) -> Problem:
-    """The same from densities whose mean over cells is 1."""
+    """As `on_grid`, from densities whose mean over cells is 1."""
     first = form.ready(flow.scene(size)).start
     first[RHO] /= first[RHO, 1:-1, 1:-1].mean()
     return on_grid(flow, form, size, seed, first)
 
 
 def on_mac(flow: ExactFlow, form: None, size: int, seed: int) -> Problem:
-    """The Boussinesq MAC grid at one temperature, IMEX: the vortex of an incompressible fluid.
+    """Problem of the Boussinesq MAC grid (IMEX) at one temperature: the vortex of an incompressible fluid.
 
-    Height 1 is half of a wavelength, the largest velocity 1.
+    The height 1 is half of a wavelength; the largest velocity is 1.
     """
     nu = 2/RE
     case = BoussinesqCase(ra=1/nu**2, pr=1.0, box=CELL, rows=size//2)
-    mac.cache_clear()       # what set-up takes is to be seen each time
+    mac.cache_clear()       # so that each set-up is timed in full
     start = stirred(case)
     made, fastest = Projection(case, start), np.abs(start).max()
     limit, time = CFL/case.rows/fastest, DECAYS/(2*nu*np.pi**2)
@@ -201,7 +201,7 @@ def projected(case: BoussinesqCase, q: np.ndarray, dt: float, steps: int) -> np.
 
 
 def decayed(case: BoussinesqCase, start: np.ndarray, q: np.ndarray) -> Result:
-    """Against the start, smaller by e."""
+    """Errors of the vortex at the end against the start times exp(-DECAYS)."""
     flow = slice(0, case.mac.ends[1])
     exact = start[flow]*np.exp(-DECAYS)
     first, last = (State(case=case, q=state).K for state in (start, q))

@@ -1,4 +1,4 @@
-"""What follows from the runs: error against cost, what a level of error costs, how steps grow."""
+"""Rows derived from runs: error against cost, the cost of a level of error, how seconds of a step grow."""
 from collections.abc import Iterator
 from itertools import product
 from typing import Any
@@ -21,7 +21,7 @@ FIELD = {
     "couette": "velocity",
 }
 LEVELS = (0.1, 0.03, 0.01, 0.001)
-LEAST = 3           # sizes of an exponent
+LEAST = 3           # least number of sizes for an exponent
 A_RUN, A_SERIES = RUN.split(), SERIES.split()
 RUNG = ["scene", "method", "resolution"]
 MEANS = ("error", "cpu_s", "setup_s", "points")
@@ -31,7 +31,7 @@ NOTHING = pd.DataFrame()
 
 
 def errors(tables: Tables) -> dict[str, Rows]:
-    """What errors cost."""
+    """Derived rows of the study."""
     rows: dict[str, Rows] = {}
     if "growth" in tables:
         rows["growth_laws"] = list(growth_laws(tables["growth"]))
@@ -44,7 +44,7 @@ def errors(tables: Tables) -> dict[str, Rows]:
 
 
 def over_seeds(errors: pd.DataFrame, runs: pd.DataFrame, steps: pd.DataFrame) -> pd.DataFrame:
-    """Means, of resolutions at which no seed diverged. Their intervals hold the error of time."""
+    """Means over seeds, at resolutions where no seed diverged. Their intervals include the error of time."""
     diverged = errors.quantity.eq("diverged").groupby([errors[name] for name in RUNG]).transform("any")
     rows = with_steps(errors[~diverged], steps).merge(runs, on=A_RUN)
     rows = rows.assign(error=rows.error.abs(), cpu_s=rows.share*rows.run_s + rows.setup_s,
@@ -54,7 +54,7 @@ def over_seeds(errors: pd.DataFrame, runs: pd.DataFrame, steps: pd.DataFrame) ->
 
 
 def with_steps(errors: pd.DataFrame, steps: pd.DataFrame) -> pd.DataFrame:
-    """Errors whose intervals hold what halving the chosen step changes."""
+    """Errors whose intervals include the change when the chosen step is halved."""
     if steps.empty:
         return errors
     key = [*A_RUN, "quantity"]
@@ -81,15 +81,15 @@ def lammps() -> Iterator[Row]:
 
 
 def needed(points: pd.DataFrame) -> Iterator[Row]:
-    """Every method at every level."""
+    """What every level of error costs with every method."""
     for (key, group), level in product(groups(points, A_SERIES), LEVELS):
         yield {**dict(zip(A_SERIES, key)), "level": level, **reached(group.sort_values("resolution"), level)}
 
 
 def reached(group: pd.DataFrame, level: float) -> Row:
-    """Where the errors of rising resolutions come below a level and stay there, between two by a power law.
+    """Cost at which errors of rising resolutions fall below a level for good, by a power law between two.
 
-    An error that is not told from zero counts with its uncertainty: where its sign changes it is no measure.
+    An error smaller than its uncertainty is replaced by it: an error that changes sign is small by chance.
     """
     group = group.assign(error=group[["error", "error_err"]].max(axis=1), points_err=0.0)
     below = (group.error <= level)[::-1].cummin().sum()
@@ -107,7 +107,7 @@ def reached(group: pd.DataFrame, level: float) -> Row:
 
 
 def rivals(points: pd.DataFrame) -> Iterator[Row]:
-    """Printed particles over the grid of each scene; none that are better than all grids."""
+    """Cost of printed particles over that of the grid of each scene; no row where they beat all grids."""
     for scene, quantity in FIELD.items():
         here = points.query("scene == @scene and quantity == @quantity").sort_values("error")
         grids, particles = (here[here.method == method] for method in (GRID, LUCY))
@@ -121,7 +121,7 @@ def rivals(points: pd.DataFrame) -> Iterator[Row]:
 def over_rival(best: pd.Series, grids: pd.DataFrame, column: str) -> Measured:
     """`column` of a run over that of a grid with the same error, by a power law between its resolutions.
 
-    Where the coarsest grid is better already, over that of the coarsest grid: the ratio is this at least.
+    Where already the coarsest grid is better, over that of the coarsest grid: a lower bound of the ratio.
     """
     x, y = np.log(grids[["error", column]].to_numpy(float)).T
     rival = np.interp(np.log(best.error), x, y)
@@ -131,7 +131,7 @@ def over_rival(best: pd.Series, grids: pd.DataFrame, column: str) -> Measured:
 
 
 def growth_laws(growth: pd.DataFrame) -> Iterator[Row]:
-    """Exponents over the number of particles, and speed-ups by two threads."""
+    """Exponents of the seconds of a step over the number of points, and speed-ups by two threads."""
     for method, group in groups(growth.query("clock == 'cpu'"), "method"):
         if len(group) >= LEAST:
             yield growth_law(method, "exponent", group, power_law(group.points, group.step_s).slope)
@@ -143,6 +143,6 @@ def growth_laws(growth: pd.DataFrame) -> Iterator[Row]:
 
 
 def growth_law(method: str, what: str, group: pd.DataFrame, law: Measured) -> Row:
-    """A row."""
+    """A row of the table `growth_laws`."""
     return {"method": method, "what": what, "least": group.points.min(), "most": group.points.max(),
             **with_err(value=law)}

@@ -17,8 +17,8 @@ PANELS = (
     ("sound", "velocity", "a sound wave: velocity"),
     ("conduction", "temperature", "conduction: temperature"),
 )
-WORST = 10.0        # relative error that is drawn: ten times the answer
-#: of error, at which members of a family are compared: the first that one of them reaches
+WORST = 10.0        # largest relative error that is drawn
+#: levels of error at which members of a family are compared: the first that one of them reaches
 DECIDE = (0.01, 0.03, 0.1)
 #: how the names of a family begin -> its colour, its marker
 FAMILIES = {
@@ -62,7 +62,7 @@ def work_precision(points: pd.DataFrame, needed: pd.DataFrame) -> Figure:
 
 
 def panel(axes: Axes, rows: pd.DataFrame, needed: pd.DataFrame, title: str) -> None:
-    """One scene and quantity."""
+    """Draw the panel of one scene and quantity."""
     draw(axes, rows[rows.method.isin(best(rows, needed))], "cpu_s", "error")
     for level in LEVELS:
         axes.axhline(level, color="grey", linewidth=0.6, linestyle=":")
@@ -80,14 +80,14 @@ def best(rows: pd.DataFrame, needed: pd.DataFrame) -> list[str]:
 
 
 def foremost(marks: pd.DataFrame) -> str:
-    """The least in the first column in which there is a number."""
+    """The method with the least value in the first column that has one."""
     first = marks.notna().any().idxmax()
     return str(marks[first].idxmin())
 
 
 def draw(axes: Axes, rows: pd.DataFrame, x: str, y: str) -> None:
-    """All methods, with errors in both directions."""
-    rows = rows[rows[x] > 0]        # a short time may drown
+    """Draw all methods, with error bars in both directions."""
+    rows = rows[rows[x] > 0]        # a short time may be lost in noise
     for name in present(rows):
         series = rows[rows.method == name].sort_values("resolution")
         axes.errorbar(series[x], series[y], xerr=limited(series, x), yerr=limited(series, y), label=name,
@@ -95,7 +95,7 @@ def draw(axes: Axes, rows: pd.DataFrame, x: str, y: str) -> None:
 
 
 def present(rows: pd.DataFrame) -> list[str]:
-    """Methods in their order."""
+    """Methods of some rows, in the order of METHODS."""
     return [name for name in METHODS if name in set(rows.method)]
 
 
@@ -109,25 +109,25 @@ def style(name: str) -> dict[str, Any]:
 
 
 def family(name: str) -> str:
-    """How a name begins."""
+    """The family of a method: how its name begins."""
     return next(start for start in FAMILIES if name.startswith(start))
 
 
 def limited(rows: pd.DataFrame, column: str) -> np.ndarray:
-    """Bars (2, n) that end above zero on a logarithmic axis."""
+    """Error bars (2, n) that end above zero, for a logarithmic axis."""
     value, err = (rows[name].to_numpy(float) for name in (column, f"{column}_err"))
     return np.stack([np.minimum(err, 0.9*value), err])
 
 
 def loglog(axes: Axes, title: str, xlabel: str) -> None:
-    """Logarithmic axes whose numbers are written out."""
+    """Make axes logarithmic, with numbers written out."""
     axes.set(xscale="log", yscale="log", title=title, xlabel=xlabel)
     for axis in (axes.xaxis, axes.yaxis):
         numbered(axis)
 
 
 def legend(page: Figure, all_axes: np.ndarray) -> None:
-    """One for all panels, below; without bars, which hide markers."""
+    """Draw one legend for all panels, below them, without error bars, which hide markers."""
     handles: dict = {}
     for axes in all_axes.flat:
         bars, names = axes.get_legend_handles_labels()

@@ -1,12 +1,12 @@
-"""A method set up in a flow, and the longest step that is good enough.
+"""A method set up in a flow, and the longest time step that is accurate enough.
 
-The step is halved from a first fraction of the stability limit until halving it once more changes what is
-measured by less than the error that is left: the error of time is then below that of space. From there it is
-made longer by 2^(1/4) at a time, beyond a limit whose formula is on the safe side, too, while that changes
-less than an eighth of the error: in two dimensions seconds go as error^(-3/2), so that would cost what the
-longer step saves. Steps longer than the first one have to stand a thousand steps: a short run does not show
-that they are unstable. In chaotic flows errors differ by more than an eighth at any two steps: all of the
-error may change.
+The step is halved from a first fraction of the stability limit until halving it once more changes the result
+by less than the error that is left: the error of time is then below that of space. From there the step grows
+by factors of 2^(1/4), also beyond a limit whose formula is on the safe side, while this changes less than an
+eighth of the error: in two dimensions seconds go as error^(-3/2), so that a larger change would cost what the
+longer step saves. Steps longer than the first one have to last a thousand steps, since a short run does not
+show that they are unstable. In chaotic flows errors at any two steps differ by more than an eighth: there the
+change may be as large as the error.
 """
 from collections.abc import Callable, Iterator, Mapping
 from math import ceil
@@ -21,22 +21,22 @@ from particles.run import Divergence, Plan, Run, run
 from particles.threads import Threads
 from studies.build.unguarded import Unguarded
 
-HALVINGS = 7        # at most: steps of 1/128 of the first one
-LONGEST = 60.0      # CPU seconds of halving steps: none is halved again that would take it beyond
-STRETCH, STRETCHES = 2**0.25, 8         # of a step that is good enough: 4 times at most
-WORTH = STRETCH**(2/3) - 1              # of the error: what a longer step may change
-STANDS = 1000       # steps in which round-off breaks a fluid if it grows by 4 % a step
+HALVINGS = 7        # of the step at most: to 1/128 of the first one
+LONGEST = 60.0      # CPU seconds that halving may take: no step is halved that would exceed this
+STRETCH, STRETCHES = 2**0.25, 8         # factor of longer steps, number of factors: 4 times at most
+WORTH = STRETCH**(2/3) - 1              # part of the error that a longer step may change
+STANDS = 1000       # steps within which round-off breaks a fluid if it grows by 4 % a step
 ROUNDING = 1e-12
 DIVERGES = (Divergence, ArithmeticError)
-#: by quantity, (m,): differences from the exact answer over its rms
+#: quantity -> differences from the exact answer over its rms, (m,)
 Residuals = dict[str, np.ndarray]
-#: (state, dt, steps) -> what comes out
+#: (state, dt, steps) -> what a run gives
 Go = Callable[[Any, float, int], Any]
 NONE: Mapping[str, float] = {}
 
 
 class Result(NamedTuple):
-    """What a run gives, by quantity. uncertain : of averages. share : of the steps that it needs."""
+    """Errors of a run by quantity. uncertain : error of averages. share : part of the steps that it needs."""
     residuals: Residuals
     uncertain: Mapping[str, float] = NONE
     share: Mapping[str, float] = NONE
@@ -49,10 +49,10 @@ Judge = Callable[[Any], Result]
 class Problem(NamedTuple):
     """A method at the start of a flow.
 
-    points : particles, points or cells. limit : largest stable step, `time` to go. held() : all that exists
-    in memory while it runs. known : uncertainty of the exact answer. chaotic : two steps give two flows, only
-    the sizes of their errors compare. firm : no step beyond the limit is stable. timed : `go` without
-    records.
+    points : number of particles, points or cells. limit : largest stable step. time : duration. held() : all
+    that is in memory during a run. known : uncertainty of the exact answer. chaotic : two steps give two
+    flows, of which only the sizes of errors can be compared. firm : no step beyond the limit is stable.
+    timed : `go` without records.
     """
     points: int
     start: Any
@@ -71,16 +71,16 @@ class Problem(NamedTuple):
         return self.timed or self.go
 
     def steps(self, fraction: float) -> int:
-        """Equal steps of at most a fraction of the limit that end at the time of the flow."""
+        """Number of equal steps to the end of the flow, each at most this fraction of the limit."""
         exact = self.time/(fraction*self.limit)
         return ceil(exact*(1 - ROUNDING))
 
     def dt(self, fraction: float) -> float:
-        """Of these."""
+        """Length of these steps."""
         return self.time/self.steps(fraction)
 
     def result(self, fraction: float) -> Result | None:
-        """What comes out; None where the run diverges."""
+        """Result of a run with this step; None where it diverges."""
         try:
             end = self.go(self.start, self.dt(fraction), self.steps(fraction))
             result = self.judge(end)
@@ -89,7 +89,7 @@ class Problem(NamedTuple):
         return result._replace(state=getattr(end, "state", end))
 
     def stands(self, fraction: float) -> bool:
-        """Whether STANDS steps can be made, by a run that has fewer."""
+        """Whether STANDS steps can be made; they are tried only if the run has fewer."""
         if self.steps(fraction) >= STANDS:
             return True
         try:
@@ -103,7 +103,7 @@ class Problem(NamedTuple):
 
 
 def of_method(method: Any, start: np.ndarray, time: float, judge: Judge, **more: Any) -> Problem:
-    """The problem of such a method. In memory are state, sums with their lists, what the integrator keeps."""
+    """Problem of such a method. In memory are the state, the sums with their lists, the integrator's data."""
     def go(state: np.ndarray, dt: float, steps: int) -> np.ndarray:
         return run(Unguarded(method), state, Plan(dt=dt, steps=steps, every=steps)).by_id()
 
@@ -117,7 +117,7 @@ def of_method(method: Any, start: np.ndarray, time: float, judge: Judge, **more:
 
 
 def of_grid(ready: Any, time: float, judge: Judge, **more: Any) -> Problem:
-    """The problem of the compressible grid, in a loop of its own; its cells have one spacing."""
+    """Problem of the compressible grid, which has its own time loop and cells of unit spacing."""
     method, march = ready.method, ready.method.march(ready.start)
     cells = round(method.scene.L*method.scene.width)
     return Problem(cells, ready.start, ready.limit, time, method.go, judge,
@@ -125,14 +125,14 @@ def of_grid(ready: Any, time: float, judge: Judge, **more: Any) -> Problem:
 
 
 def relative(V: np.ndarray, difference: np.ndarray, scale: np.ndarray) -> np.ndarray:
-    """Differences, (n,) or (n, 2), at points of volumes V, over the rms of a scale."""
+    """Differences, (n,) or (n, 2), weighted by volumes V, over the rms of a scale."""
     w = np.sqrt(V/V.mean())
     size = rms(w*scale.T)
     return np.ravel(w*difference.T/size)
 
 
 def rms(values: np.ndarray) -> float:
-    """Root mean square; not a number where one of them is none."""
+    """Root mean square; nan if one value is nan."""
     return float(np.sqrt(np.mean(np.asarray(values)**2)))
 
 
@@ -140,7 +140,7 @@ def rms(values: np.ndarray) -> float:
 
 
 class Rung(NamedTuple):
-    """A step tried: its fraction of the limit, errors of time and space by quantity, its result."""
+    """A step that was tried: its fraction of the limit, errors of time and space by quantity, its result."""
     fraction: float
     time: dict[str, float]
     space: dict[str, float]
@@ -149,7 +149,7 @@ class Rung(NamedTuple):
 
 
 def climb(problem: Problem, first: float) -> list[Rung]:
-    """All steps that were tried: halved until one is good enough, then made longer."""
+    """All steps that were tried: halved until one is accepted, then made longer."""
     rungs, fine, most = halved(problem, first)
     if rungs[-1].accepted:
         rungs += stretched(problem, rungs[-1], fine, most)
@@ -157,13 +157,13 @@ def climb(problem: Problem, first: float) -> list[Rung]:
 
 
 def best(rungs: list[Rung]) -> Rung:
-    """The longest step that is good enough; where none is, the shortest."""
+    """The longest accepted step; if none is accepted, the shortest."""
     good = [rung for rung in rungs if rung.accepted]
     return max(good, key=lambda rung: rung.fraction, default=rungs[-1])
 
 
 def halved(problem: Problem, first: float) -> tuple[list[Rung], Result | None, float]:
-    """Steps down to the first that is good enough, the result of half of it, what longer steps stay below."""
+    """Steps down to the first accepted one, the result of half of it, and the bound of longer steps."""
     rungs: list[Rung] = []
     most = max(first, 1.0) if problem.firm else first*STRETCH**(STRETCHES + 0.5)
     began, fine, too_long = process_time(), problem.result(first), False
@@ -179,7 +179,7 @@ def halved(problem: Problem, first: float) -> tuple[list[Rung], Result | None, f
 
 
 def stretched(problem: Problem, good: Rung, fine: Result | None, most: float) -> Iterator[Rung]:
-    """Steps longer than a good one, up to the first that changes too much, or diverges; all below `most`."""
+    """Steps longer than an accepted one, below `most`, up to the first that changes too much or diverges."""
     share = 1.0 if problem.chaotic else WORTH
     fraction = good.fraction*STRETCH
     while fraction < most*(1 - ROUNDING) and below(share, good):
@@ -196,7 +196,7 @@ def below(share: float, rung: Rung) -> bool:
 
 def rung_of(problem: Problem, fraction: float, coarse: Result | None, fine: Result | None,
             share: float) -> Rung:
-    """What comes out with a step against what does with a finer one."""
+    """Errors of a step, from its result and that of a finer step."""
     if coarse is None or fine is None:
         return Rung(fraction, {}, {}, False, coarse)
     time, space = dict[str, float](), dict[str, float]()

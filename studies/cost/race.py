@@ -13,16 +13,16 @@ from studies.cost.tables import with_err
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import Measured
 
-TRIES = 1.4         # of what an entry says that a case takes: what trying longer steps does to it
-LONGER = 10         # are the runs that time particles: they have to hold some lists
+TRIES = 1.4         # factor in the seconds of a case: the trials of longer steps
+LONGER = 10         # times longer are runs that time particles: lists have to be made in them
 DIVERGED = Result({"diverged": np.array([np.nan])}, {"diverged": np.nan}, {"diverged": np.nan})
 
 
 class Entry(NamedTuple):
-    """A method in a flow, by the name that tables have.
+    """A method in a flow, with its name in tables.
 
     method : a record of `studies.build`. make(flow, method, resolution, seed) : its `Problem`. price : CPU
-    seconds for a point and a step of its spacing. first : fraction of the limit that is tried first.
+    seconds over points and resolution. first : fraction of the stability limit that is tried first.
     """
     name: str
     flow: Any
@@ -53,7 +53,7 @@ class Race(Case):
 
     @property
     def columns(self) -> dict[str, Any]:
-        """That every row has."""
+        """Columns that every row has."""
         name = self.entry.name
         return {"scene": self.scene, "method": name, "resolution": self.resolution, "seed": self.seed}
 
@@ -69,7 +69,7 @@ class Race(Case):
         return Outcome(rows)
 
     def made(self) -> Any:
-        """What the entry makes."""
+        """The problem, or the gas of a solver, that the entry makes."""
         return self.entry.make(self.entry.flow, self.entry.method, self.resolution, self.seed)
 
     def steps(self, rungs: list[Rung]) -> Iterator[dict[str, Any]]:
@@ -96,11 +96,11 @@ class Race(Case):
                 **with_err(run_s=seconds, setup_s=set_up)}
 
     def a_step(self, problem: Problem, dt: float, end: Any) -> Measured:
-        """Seconds; of particles in the disorder of the end, when their lists are made more often."""
+        """Seconds of a step; of particles from the disordered end, where lists are made more often."""
         start, short = problem.start, self.short
         if problem.chaotic:
             start, short = end, LONGER*self.short
-        safe = min(dt, self.entry.first*problem.limit)      # in more steps than the run has
+        safe = min(dt, self.entry.first*problem.limit)      # stable also in more steps than the run has
 
         def seconds(dt: float) -> Measured:
             return per_step(lambda steps: problem.advance(start, dt, steps), short)

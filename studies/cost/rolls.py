@@ -1,11 +1,11 @@
-"""Convection from KHP95's rolls: references, what share of a run is needed, methods in it.
+"""Convection from KHP95's rolls: references, the share of a run that is needed, and the methods.
 
     K, velocity, temperature    of the steady state, against the compressible grid's by Newton's method
     K(t)                        over the first 30 free-fall times, against the compressible grid in time
 
-Both are extrapolated. A steady state is reached once K, averaged over a free-fall time, stays as near to its
-end as the quantity's own error; from there on a flow that fluctuates is averaged until the statistical error
-is as small.
+Both references are extrapolated. A steady state is reached once K, averaged over a free-fall time, stays as
+near to its final value as the quantity's own error; a flow that fluctuates is averaged from there on, until
+the statistical error is as small.
 """
 from collections.abc import Callable, Mapping, Sequence
 from functools import cache, partial
@@ -32,18 +32,18 @@ from studies.cost.problem import NONE, Judge, Problem, Residuals, Result, of_gri
 from studies.kit.stats import Measured, settled
 
 RA, LOWER_RA = 1e4, 5000.0
-END, EARLY, LATE = 90.0, 30.0, 40.0     # free-fall times: of the run, of K(t), from which averages are taken
-SETTLED = 60.0      # where an error of 1 % counts: K of the grid is off by 1 % until 47, by 0.2 % until 60
-OFTEN = 4           # samples a free-fall time
-TIMES = np.arange(1, round(EARLY*OFTEN))/OFTEN      # of K(t)
-MIDDLE = 1/8        # of the height on either side of the middle, where the place of the rolls is read
-NEAR, EXACT = 0.1, 1e-7     # heights around it in which it is sought, and to which it is found
-#: the end of runs whose K has an error of about 1 %: from 60 to 90 its mean is good to 0.5 % of K, while nine
-#: seeds scatter by 0.08 %; from 60 to 210 to 0.1 and 0.03 % (fixed after a look)
+END, EARLY, LATE = 90.0, 30.0, 40.0     # free-fall times: ends of runs and of K(t), start of averages
+SETTLED = 60.0      # start of averages where 1 % counts: K of the grid is off by 1 % at 47, 0.2 % at 60
+OFTEN = 4           # samples per free-fall time
+TIMES = np.arange(1, round(EARLY*OFTEN))/OFTEN      # free-fall times at which K(t) is compared
+MIDDLE = 1/8        # of the height above and below the middle: there the position of rolls is measured
+NEAR, EXACT = 0.1, 1e-7     # heights: range of the search around this position, and its accuracy
+#: end of runs whose K has an error of about 1 %: the mean from 60 to 90 is uncertain by 0.5 %, while nine
+#: seeds scatter by 0.08 %; from 60 to 210 these are 0.1 and 0.03 % (fixed after a look)
 LONG = 210.0
 
 
-#: fields of a state
+#: state -> fields
 See = Callable[[np.ndarray], Any]
 
 
@@ -58,7 +58,7 @@ class Reference(NamedTuple):
 
 @cache
 def reference(rows: tuple[int, int, int], ra: float) -> Reference:
-    """Limits of the two finer of three grids; that of the coarser two tells their uncertainty."""
+    """Limits of the two finer of three grids; the limit of the two coarser ones gives their uncertainty."""
     scene = RayleighBenard(ra=ra)
     until = Time(EARLY*unit(scene), round(EARLY*OFTEN))
     states = [newton(scene, n) for n in rows]
@@ -71,7 +71,7 @@ def reference(rows: tuple[int, int, int], ra: float) -> Reference:
 
 
 def extrapolated(values: Sequence[Any], rows: Sequence[int]) -> Any:
-    """Second order."""
+    """Limit of values on a coarse and a fine grid, with errors of second order."""
     (coarse, fine), (a, b) = values, rows
     return fine + (fine - coarse)*a**2/(b**2 - a**2)
 
@@ -80,14 +80,14 @@ def extrapolated(values: Sequence[Any], rows: Sequence[int]) -> Any:
 
 
 class Followed(NamedTuple):
-    """A run: free-fall times, K then, the state at the end."""
+    """A run: times in free falls, K at these times, the state at the end."""
     t: np.ndarray
     ke: np.ndarray
     state: Any
 
 
 class HeatedLayer(NamedTuple):
-    """The flow. late : of methods that fluctuate, from when they are averaged. rows : of the references."""
+    """The flow. late : start of averages, if a method fluctuates. rows : of the reference grids."""
     ra: float = RA
     late: float = 0.0
     rows: tuple[int, int, int] = (32, 48, 64)
@@ -98,22 +98,22 @@ class HeatedLayer(NamedTuple):
         return reference(self.rows, self.ra)
 
     def scene(self, rows: int) -> RayleighBenard:
-        """Unit spacing."""
+        """The layer with unit spacing."""
         return RayleighBenard(ra=self.ra, L=float(rows))
 
     def judge(self, scene: RayleighBenard, see: See, factor: float = 1.0) -> Judge:
-        """All quantities, of fields as they are seen at the end. factor : smoothing's own on K."""
+        """Judge of all quantities; see(state) gives the fields at the end. factor : of smoothing on K."""
         def judge(done: Followed) -> Result:
             at = see(done.state)
             return self.result(done, at._replace(x=at.x/scene.L), factor)
         return judge
 
     def result(self, done: Followed, at: Fields, factor: float) -> Result:
-        """The same of fields with places in heights."""
+        """Errors of a run, from its K and its fields at the end, with places in heights."""
         return self.of_energy(done, factor, compared(at, self.answer.fields))
 
     def of_energy(self, done: Followed, factor: float = 1.0, others: Mapping[str, Any] = NONE) -> Result:
-        """Of K, and errors of other quantities."""
+        """Errors of K and K(t), along with those of other quantities."""
         answer = self.answer
         last = self.last(done)*(1/factor/answer.ke)
         early = CubicSpline(done.t, done.ke/factor)(TIMES)
@@ -123,7 +123,7 @@ class HeatedLayer(NamedTuple):
         return Result(residuals, uncertain, self.share(done, residuals))
 
     def last(self, done: Followed) -> Measured:
-        """K of the end; of a flow that fluctuates its mean."""
+        """K at the end; the mean from `late` on, if a method fluctuates."""
         if not self.late:
             return Measured(float(done.ke[-1]))
         since = self.late/self.end*done.t[-1]
@@ -131,13 +131,13 @@ class HeatedLayer(NamedTuple):
         return mean
 
     def share(self, done: Followed, residuals: Residuals) -> dict[str, float]:
-        """Of the run, by quantity: rule at the head of this file."""
+        """Share of the run that each quantity needs, by the rule at the head of this file."""
         errors = {name: max(self.answer.known, rms(residual)) for name, residual in residuals.items()}
         times = {name: self.needed(done, error) for name, error in errors.items()} | {"K(t)": EARLY}
         return {name: float(min(1.0, time/done.t[-1])) for name, time in times.items()}
 
     def needed(self, done: Followed, error: float) -> float:
-        """Free-fall times until a quantity of the steady state is as good as its error."""
+        """Free-fall times until the steady state is reached and averaged to this error."""
         last = self.last(done)
         window = np.full(OFTEN, 1/OFTEN)
         means = np.convolve(done.ke/last.value - 1, window, "valid")
@@ -149,10 +149,10 @@ class HeatedLayer(NamedTuple):
 
 
 def compared(at: Fields, answer: tuple[NodeFields, ...]) -> Residuals:
-    """Velocity and temperature, the latter relative to the rms of what differs from 1.
+    """Errors of velocity and temperature, the latter over the rms of T - 1.
 
-    Rolls may lie anywhere: they are compared where velocities differ least, near to where the phase of v_y in
-    the middle has them. That is a sum over irregular points and alone adds a third to their error.
+    Rolls may lie anywhere: the answer is shifted to where velocities differ least, near the position given by
+    the phase of v_y in the middle. This phase, a sum over irregular points, would add a third to the error.
     """
     def errors(shift: float) -> Residuals:
         exact = extended(answer, at.x + np.array([shift, 0.0]))
@@ -166,13 +166,13 @@ def compared(at: Fields, answer: tuple[NodeFields, ...]) -> Residuals:
 
 
 def extended(answer: tuple[NodeFields, ...], x: np.ndarray) -> Values:
-    """The limit of fields on two grids, at places (n, 2) in heights."""
+    """Fields extrapolated from those on two grids, at places (n, 2) in heights."""
     values = [np.array(interpolate(fields, *fields.scene.L*x.T)) for fields in answer]
     return Values(*extrapolated(values, [len(fields.y) - 1 for fields in answer]))
 
 
 def phase(at: Fields) -> float:
-    """How far to shift rolls so that they lie about as at the start, rising in the middle."""
+    """Shift in heights to where rolls lie about as at the start, rising in the middle: the phase of v_y."""
     x, y = at.x.T
     near = np.abs(y) < MIDDLE
     wave = at.V*at.v[:, 1]*np.exp(-1j*np.pi*x)
@@ -183,29 +183,29 @@ def phase(at: Fields) -> float:
 
 
 def on_points(flow: HeatedLayer, method: Any, rows: int, seed: int) -> Problem:
-    """Points that stay."""
+    """Problem of points that stay."""
     scene = flow.scene(rows)
     ready = method.ready(scene, seed)
     return in_time(flow, scene, ready, method.series["ke"], ready.method.fields)
 
 
 def on_moving(flow: HeatedLayer, method: Any, rows: int, seed: int) -> Problem:
-    """Points that move."""
+    """Problem of points that move."""
     return on_points(flow._replace(late=SETTLED), method, rows, seed)
 
 
 def on_triangles(flow: HeatedLayer, method: Any, rows: int, seed: int) -> Problem:
-    """Points that move with their triangulation."""
+    """Problem of points that move with their triangulation."""
     return with_triangles(on_moving(flow, method, rows, seed))
 
 
 def on_triangles_long(flow: HeatedLayer, method: Any, rows: int, seed: int) -> Problem:
-    """The same, averaged five times as long."""
+    """As `on_triangles`, averaged five times as long."""
     return on_triangles(flow._replace(end=LONG), method, rows, seed)
 
 
 def of_particles(flow: HeatedLayer, method: Any, rows: int, seed: int) -> Problem:
-    """Smooth particles; K is that of the smoothed field, held against the grid's field smoothed alike."""
+    """Problem of smooth particles; K of the smoothed field against that of the grid's, smoothed alike."""
     scene = flow.scene(rows)
     ready = method.ready(scene, seed)
     plain, smooth = smoothed_energy(flow.answer.fields[1], Smoothing(method.weight, method.h, rows))
@@ -216,7 +216,7 @@ def of_particles(flow: HeatedLayer, method: Any, rows: int, seed: int) -> Proble
 
 def in_time(flow: HeatedLayer, scene: RayleighBenard, ready: Ready, energy: Callable, see: See,
             factor: float = 1.0) -> Problem:
-    """A method of the particles' time loop, with K on the way."""
+    """Problem of a method of the particles' time loop, with K recorded."""
     def go(state: np.ndarray, dt: float, steps: int) -> Followed:
         plan = Plan(dt=dt, steps=steps, series={"ke": energy}, every=every(scene, dt))
         done = run(Unguarded(ready.method), state, plan)
@@ -227,7 +227,7 @@ def in_time(flow: HeatedLayer, scene: RayleighBenard, ready: Ready, energy: Call
 
 
 def on_grid(flow: HeatedLayer, form: Any, rows: int, seed: int) -> Problem:
-    """The compressible grid in time, with K on the way."""
+    """Problem of the compressible grid in time, with K recorded."""
     scene = flow.scene(rows)
     ready = form.ready(scene)
 
@@ -245,16 +245,16 @@ def on_grid(flow: HeatedLayer, form: Any, rows: int, seed: int) -> Problem:
 
 
 def unit(scene: RayleighBenard) -> float:
-    """Of time: that of free fall."""
+    """The unit of time: that of free fall over the height."""
     return scene.L/scene.free_fall
 
 
 def every(scene: RayleighBenard, dt: float) -> int:
-    """Steps between samples."""
+    """Number of steps between samples."""
     return max(1, round(unit(scene)/OFTEN/dt))
 
 
 def from_rolls(scene: RayleighBenard, times: Sequence[float], ke: Sequence[float], state: Any) -> Followed:
-    """Samples, before them the start."""
+    """A run from its samples, preceded by the start."""
     t = np.array([0.0, *times])/unit(scene)
     return Followed(t, np.array([START_ENERGY, *ke]), state)

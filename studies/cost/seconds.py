@@ -23,20 +23,20 @@ from studies.kit.stats import Measured
 from studies.kit.timing import REPEATS, SPREAD_TO_ERR
 
 Clock = Callable[[], float]
-SHORT = 0.01        # CPU seconds that the steps of the shorter of two runs take at least
-MANY = 100_000      # steps of it at most
+SHORT = 0.01        # least CPU seconds of the steps of the shorter of two runs
+MANY = 100_000      # most steps of that run
 
-WARM = 16           # steps of particles before they are timed, and of a lap: lists are made anew
+WARM = 16           # steps of particles before they are timed, and of a lap: enough to make lists anew
 LAPS, WORK = (5, 25), 2e6               # least and most laps; particles times steps that are enough
 ETA = 0.5
-TURNS, A_TURN = 12, 2                   # of one and two threads; laps of particles in each
+TURNS, A_TURN = 12, 2                   # turns of one and two threads; laps in each
 
 
 # --- how they are measured ----------------------------------------------------------------------------------
 
 
 def median(seconds: Sequence[float] | np.ndarray) -> Measured:
-    """Its error is that of so many repeats, by their quartiles."""
+    """Median of repeats, with its error from their quartiles and number."""
     low, middle, high = np.percentile(seconds, [25, 50, 75])
     to_err = SPREAD_TO_ERR*np.sqrt(REPEATS/len(seconds))
     return Measured(float(middle), float(to_err*(high - low)/2))
@@ -50,15 +50,14 @@ def took(f: Callable[[], Any], clock: Clock = process_time) -> float:
 
 
 def of_calls(f: Callable[[], Any]) -> Measured:
-    """Seconds of a call that was made before, so that all is compiled."""
+    """Median seconds of a call that was made before, so that all is compiled."""
     return median([took(f) for _ in range(REPEATS)])
 
 
 def per_step(advance: Callable[[int], Any], short: float = SHORT, clock: Clock = process_time) -> Measured:
-    """Seconds of one step of advance(steps): the difference of two runs leaves out what every run pays once.
+    """Seconds of one step of advance(steps), from the difference of two runs: it leaves out the fixed cost.
 
-    The steps of the shorter one take `short` at least, and as long as what is paid once, whose scatter
-    counts.
+    The steps of the shorter run take at least `short`, and at least the fixed cost, since its scatter counts.
     """
     def lap(steps: int) -> float:
         return took(lambda: advance(steps), clock)
@@ -75,7 +74,7 @@ def per_step(advance: Callable[[int], Any], short: float = SHORT, clock: Clock =
 
 
 class Laps:
-    """Seconds between calls."""
+    """Clock readings of each call, as the progress report of a run. at : the readings."""
 
     def __init__(self, clock: Clock = process_time) -> None:
         self.clock, self.at = clock, list[float]()
@@ -84,7 +83,7 @@ class Laps:
         self.at.append(self.clock())
 
     def total(self, count: int) -> Measured:
-        """Of `count` of them."""
+        """Seconds of `count` laps, each of median length."""
         return median(np.diff(self.at))*count
 
 
@@ -92,7 +91,7 @@ class Laps:
 
 
 class Flock(NamedTuple):
-    """Points that move at Ra = 10 000, lists or flips and walls included; twice as many columns as rows."""
+    """Moving points in convection at Ra 10 000, with lists or flips and walls; 2 rows columns wide."""
     method: Any
     start: np.ndarray
     dt: float
@@ -104,17 +103,17 @@ class Flock(NamedTuple):
         return cls(method, start, dt, threads)
 
     def seconds(self, short: float) -> Measured:
-        """Of a step."""
+        """CPU seconds of a step."""
         count = WORK/(WARM*self.start.shape[1])
         return median(self.laps(int(np.clip(count, *LAPS)), process_time))
 
     def laps(self, count: int, clock: Clock) -> np.ndarray:
-        """Seconds of a step in each of so many laps; the one before the first is left out."""
+        """Seconds of a step in each of `count` laps; one lap more before them does not count."""
         laps, steps = Laps(clock), WARM*(count + 1)
         plan = Plan(dt=self.dt, steps=steps, threads=self.threads, every=WARM)
 
         def progress(done: float) -> None:
-            if round(done*steps) % WARM == 0:       # some report after fewer steps
+            if round(done*steps) % WARM == 0:       # some methods report after fewer steps
                 laps(done)
         run(self.method, self.start, plan, progress)
         return np.diff(laps.at)/WARM
@@ -133,12 +132,12 @@ class Web(NamedTuple):
         return cls(method.start(len(x), Threads(1)), start)
 
     def seconds(self, short: float) -> Measured:
-        """Of a step that is stable there for sure."""
+        """CPU seconds of a step that is certainly stable there."""
         return per_step(lambda steps: stepped(self.sums, self.start, 0.1, steps), short)
 
 
 def stepped(sums: Any, state: np.ndarray, dt: float, steps: int) -> np.ndarray:
-    """A state after so many steps of RK4, which nothing watches."""
+    """A state after so many steps of RK4, without checks or records."""
     integrator, now = RK4(state.shape, Threads(1)), state.copy()
     for _ in range(steps):
         integrator.step(sums, now, dt)
@@ -152,7 +151,7 @@ class StepTime(Case):
     variant: Any
     kind: type[Flock] | type[Web]
     rows: int
-    a_point: float = 7.6e-5     # seconds that the case takes
+    a_point: float = 7.6e-5     # seconds that the case takes per point
     short: float = SHORT
     alone: ClassVar[bool] = True
     what: ClassVar[str] = "growth"
@@ -170,14 +169,14 @@ class StepTime(Case):
         return Outcome({"growth": [self.row(many, many.seconds(self.short), 1, "cpu")]})
 
     def row(self, many: Flock | Web, seconds: Measured, threads: int, clock: str) -> dict[str, Any]:
-        """Of the table."""
+        """A row of the table `growth`."""
         return {"method": self.name, "points": many.start.shape[1], "threads": threads, "clock": clock,
                 **with_err(step_s=seconds)}
 
 
 @dataclass(frozen=True, kw_only=True)
 class TwoThreads(StepTime):
-    """The time that passes in steps of one thread and of two, in turns: what slows the machine slows both."""
+    """Wall time of steps of one thread and of two, in turns, so that other load slows both alike."""
     kind: type[Flock] = Flock
     turns: int = TURNS
     what: ClassVar[str] = "threads"
@@ -191,7 +190,7 @@ class TwoThreads(StepTime):
         alone, together = list[float](), list[float]()
         for turn in range(self.turns + 1):
             first, second = (flock.laps(A_TURN, perf_counter) for flock in (one, two))
-            if turn:        # the first loads what is compiled
+            if turn:        # the first turn loads compiled code
                 alone.extend(first)
                 together.extend(second)
             report(turn/self.turns)
@@ -201,7 +200,7 @@ class TwoThreads(StepTime):
 
 
 def resident(variant: Any, rows: int) -> dict[str, int]:
-    """Bytes of this process in memory, before, in a step, and at most, of so many points (Linux)."""
+    """Resident bytes of this process before points are made, in a step, and at most (Linux)."""
     def now(*_: Any) -> int:
         return getpagesize()*int(Path("/proc/self/statm").read_text().split()[1])
     before = now()
@@ -213,7 +212,7 @@ def resident(variant: Any, rows: int) -> dict[str, int]:
 
 @dataclass(frozen=True, kw_only=True)
 class Resident(StepTime):
-    """Memory of a process that does nothing else."""
+    """Memory of a fresh process that makes one step and nothing else."""
     kind: type[Flock] = Flock
     what: ClassVar[str] = "memory"
 

@@ -26,26 +26,26 @@ from studies.cost.tables import with_err
 from studies.kit.case import Outcome, Report
 from studies.kit.stats import Measured
 
-SAMPLES = 5         # of the seconds of py-pde in the vortex, those of as many equal parts of the run
+SAMPLES = 5         # of the seconds of py-pde in the vortex, one for each equal part of a run
 
 
-# --- the spectral method: what n functions along an axis give, against more of them ----------------------
+# --- the spectral method: n functions along an axis against more of them ---------------------------------
 
-FIRST = 8           # functions, from whose state that of others starts
-#: most functions -> those of their exact answer; four fewer tell its uncertainty
+FIRST = 8           # functions along an axis of the state from which larger ones start
+#: functions up to -> functions of their exact answer; four fewer give its uncertainty
 FINER = {12: 20, 24: 32}
 
 
 @cache
 def solved(ra: float, n: int) -> SpectralState:
-    """The steady gas, from warm streams, once in a process."""
+    """The steady gas with n functions along an axis, from warm streams, solved once in a process."""
     laws = GasLaws(RayleighBenard(ra=ra))
     few = steady(laws, min(n, FIRST))
     return steady(laws, n, few) if n > FIRST else few
 
 
 def apart(state: SpectralState, exact: SpectralState) -> Residuals:
-    """K and velocity of two states, at the points of the finer one; as in `rolls`."""
+    """Errors of K and velocity of a state at the points of a finer one, relative as in `rolls`."""
     finer, n = exact.equations, state.equations.n
     every = np.zeros((4, finer.n, finer.n))
     every[:, :n, :n] = state.equations.amplitudes(state.q)
@@ -56,11 +56,11 @@ def apart(state: SpectralState, exact: SpectralState) -> Residuals:
 
 @dataclass(frozen=True, kw_only=True)
 class SpectralRace(Race):
-    """All of the way to a steady state, without steps in time; the resolution is functions along an axis."""
+    """The spectral gas to its steady state, without steps in time. resolution : functions along an axis."""
 
     @property
     def cost(self) -> float:
-        return 3 + 5e-8*self.resolution**6      # three for the exact answer, once in a process
+        return 3 + 5e-8*self.resolution**6      # three seconds for the exact answer, once in a process
 
     def run(self, report: Report, folder: Path) -> Outcome:
         ra, n = self.entry.flow.ra, self.resolution
@@ -79,7 +79,7 @@ class SpectralRace(Race):
 
 
 class Slow(Gas):
-    """The gas of a slow vortex at a temperature and density about 1, its run and what comes out."""
+    """py-pde's gas in a slow vortex with temperature and density about 1: its run and its errors."""
 
     @property
     def known(self) -> float:
@@ -91,7 +91,7 @@ class Slow(Gas):
         return Time(self.scene.time, SAMPLES)
 
     def step_limit(self) -> float:
-        """As that of convection; of velocities twice the largest one."""
+        """Largest stable step, by the formula of convection for twice the largest velocity."""
         eos, law = self.scene.eos, self.scene.law
         sound = float(sound_speed(eos, 1.0, energy(eos, 1.0, 1.0)))
         wave = (2*np.sqrt(2)*sound + 2*self.scene.speed)/self.h
@@ -99,20 +99,20 @@ class Slow(Gas):
         return float(1/(decay/RK4_DECAY + wave/RK4_SOUND))
 
     def measure(self, data: np.ndarray) -> tuple[float, float, float]:
-        """v^2/2 per volume, as cheap as it gets: samples are there for their times."""
+        """v^2/2 per volume, as cheap as possible: samples are only there to read the clock."""
         return float((data[VX]**2 + data[VY]**2).mean()/2), np.nan, 1.0
 
     def nusselt(self, data: np.ndarray) -> tuple[float, float]:
-        """No heat is driven through it."""
+        """nan: no heat is driven through the vortex."""
         return np.nan, np.nan
 
     def begun(self) -> np.ndarray:
-        """The state (4, columns, rows) at the start, each field where it is."""
+        """The state (4, columns, rows) at the start, each field at its own points."""
         rho, u, v, T = (started(self.scene, *self.mesh(field))[field] for field in (RHO, VX, VY, E))
         return np.array([rho, u, v, energy(self.scene.eos, 1.0, T)])
 
     def exact(self) -> np.ndarray:
-        """Velocities (n, 2) at the end, each component where it is."""
+        """Exact velocities (n, 2) at the end, each component at its own points."""
         components = []
         for field, name in ((VX, "vx"), (VY, "vy")):
             x = np.stack(self.mesh(field), axis=-1).reshape(-1, 2)
@@ -120,14 +120,14 @@ class Slow(Gas):
         return np.stack(components, axis=1)
 
     def result(self, end: pypde.PdeSolution) -> Result:
-        """Velocity and decay."""
+        """Errors of velocity and decay."""
         v, exact = end.state[[VX, VY]].reshape(2, -1).T, self.exact()
         one = np.ones(len(v))
         return Result({"velocity": relative(one, v - exact, exact), "decay": decay(self.scene, one, v)})
 
 
 class Rolling(Gas):
-    """Convection from KHP95's rolls, its run and its K."""
+    """py-pde's gas in convection from KHP95's rolls: its run and its K."""
 
     def __init__(self, flow: HeatedLayer, rows: int):
         super().__init__(flow.scene(rows), rows)
@@ -142,21 +142,21 @@ class Rolling(Gas):
         return self.rolls(START_ENERGY)
 
     def result(self, end: pypde.PdeSolution) -> Result:
-        """K, at the end and on the way."""
+        """Errors of K at the end and of K(t)."""
         return self.flow.of_energy(Followed(end.series.t/unit(self.scene), end.series.ke, None))
 
 
 def by_pypde(flow: Any, method: None, size: int, seed: int) -> Slow | Rolling:
-    """Cells of one spacing."""
+    """py-pde's gas of a flow, in cells of unit spacing."""
     return Rolling(flow, size) if isinstance(flow, HeatedLayer) else Slow(flow.scene(size), size)
 
 
 @dataclass(frozen=True, kw_only=True)
 class SolverRace(Race):
-    """The solver, called once; what the entry makes is its gas.
+    """One call of py-pde, whose gas the entry makes.
 
-    Steps are at the limit of its own formula, an eighth longer than which ends in the vortex; compiling is
-    not counted, nor what py-pde does around the steps.
+    The step is the limit by its own formula; an eighth longer, and a run in the vortex ends early. Compiling
+    is not counted, nor what py-pde does around the steps.
     """
 
     def run(self, report: Report, folder: Path) -> Outcome:

@@ -1,4 +1,4 @@
-"""Which methods meet which case, by size: a method is a line, a case is a line."""
+"""Which methods run in which hard case, by size; each method and each case is one line."""
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import product
@@ -22,18 +22,18 @@ from studies.kit.case import Case
 
 MOVING = "moving"
 NESTED = "fixed-lattice-nested-only"
-RANDOM = (JITTERED, CARRIED, MOVING)    # whose points lie as a seed says
-CHEAP = (LATTICE, JITTERED, *STABLE, CARRIED)       # enough to be tried with 32 rows
+RANDOM = (JITTERED, CARRIED, MOVING)    # the seed sets the places of the points
+CHEAP = (LATTICE, JITTERED, *STABLE, CARRIED)       # cheap enough for 32 rows
 TILED = By(runs.tiled, variant(GRID))
 
-#: name -> what takes part
+#: name of a method -> what sets it up, by ready(scene, seed)
 Entrants = dict[str, Any]
-#: tubes: who, and what is seen at the end
+#: shock tubes: method -> what sets it up, and what is recorded at the end
 IN_TUBES: dict[str, tuple[Any, Callable]] = {
     GRID: (By(tubes.cells, variant(GRID)), tubes.in_cells),
     "spam": (By(printed.in_tubes, Lucy), printed.smoothed),
     **{name: (By(runs.at_limit, variant(name)), tubes.binned) for name in (LATTICE, *RANDOM, *STABLE)}}
-#: the highest Ra: what tries it
+#: the highest Ra: method -> function that runs it at one Ra, and the variant that this function takes
 IN_LAYERS: dict[str, tuple[Any, Any]] = {
     GRID: (high_ra.on_grid, ROWS),
     **{name: (high_ra.on_points, By(high_ra.rippled, variant(name))) for name in (LATTICE, JITTERED)},
@@ -42,20 +42,20 @@ IN_LAYERS: dict[str, tuple[Any, Any]] = {
 
 
 def smooth(*names: str) -> Entrants:
-    """Smooth particles by their names."""
+    """Smooth particles by their names, set up by `runs.smooth`."""
     return {name: By(runs.smooth, chosen) for name, chosen in variants(*names).items()}
 
 
-#: the map
+#: methods of the map
 SPAM = smooth("spam", "spam-wendland-c2", "spam-corrected")
 POINTS = variants(LATTICE, NESTED, JITTERED, *STABLE)
 MOVE = variants("moving-literal", "moving-constant-mass", MOVING)
 TRIANGLES = variants(CARRIED)
 USUAL = SPAM | POINTS | MOVE | TRIANGLES
-#: of the vortex and the strip: held rows stick even without viscosity, as the plates of smooth particles do
+#: methods for vortex and strip, without plates where these, or held rows, stick even at zero viscosity
 NO_PLATES = {**USUAL, GRID: TILED,
              **{name: By(without_plates, USUAL[name]) for name in (*SPAM, CARRIED, STABLE[-1])}}
-#: case -> who takes part in place of the usual ones
+#: case -> methods that run in it in place of `USUAL`
 TAKES: dict[str, Entrants] = {
     **dict.fromkeys(("Ra 1e7", "Ra 1e8"), variants(*CHEAP, MOVING) | smooth("spam", "spam-corrected")),
     "disordered points": variants(LATTICE, JITTERED, *STABLE, "fixed-random-delaunay", "fixed-jittered-plain",
@@ -71,41 +71,41 @@ TAKES: dict[str, Entrants] = {
     "long rest": variants(LATTICE, JITTERED, CARRIED),
     "a million points": {name: NO_PLATES[name] for name in (GRID, "spam")} | TRIANGLES,
 }
-#: case -> who is asked for a number in it: densities that alternate no smooth particle has, and no node of
-#: the grid sees
+#: case -> methods whose number is compared with a known one; smooth particles cannot have densities that
+#: alternate, and nodes of the grid do not see them
 PROBED = {"shear layer": USUAL | {GRID: TILED},
           "alternating densities": variants(LATTICE, JITTERED, *STABLE, CARRIED, MOVING)}
-#: whose answer is known, without viscosity: of today's smooth particles the one that is consistent
+#: methods of the trials (known answer, no viscosity); of today's smooth particles the consistent one
 TRIED = (GRID, LATTICE, JITTERED, CARRIED, MOVING, "spam", "spam-corrected", *STABLE)
-#: method, case -> more sizes
+#: (method, case) -> further sizes
 LARGER = {**{(name, "Sod"): (200,) for name in STABLE}, (STABLE[0], "Sod"): (200, 400),
           (STABLE[0], "Mach 10"): (400,), (HELD, "Mach 3 body"): (192,), (STABLE[0], "100 turns"): (32,),
           **{(name, "shocked ripple"): (800,) for name in (STABLE[0], BLENDED)}}
 ROOMY = 2*tubes.HEIGHT  # where gases part, points that move are three spacings apart, and reach half of that
-#: smooth flows: scene, rows, edges; convection of fixed irregular points would take a quarter of an hour
+#: smooth flows: scene, rows, methods; convection on fixed irregular points would take a quarter of an hour
 FLOWS = (("rayleigh-benard", (48,), EDGES[:1]), ("rayleigh-benard", (25,), EDGES[2:]),
          ("taylor-green", (32, 64), EDGES), ("sound", (32,), EDGES))
 
-#: layers that are tried with 32 rows, too
+#: layers that also run with 32 rows
 TALL = ("Ra 1e5", "Ra 1e6", "Ra 1e7", "Ra 1e8", "Prandtl 0.01", "Prandtl 100", "high pressure")
 LENGTHS = (24, 36, 48, 72, 96, 144, 192)
-MORE_SEEDS = 16         # of the longest viscous tube of smooth particles, whose ringing is near its limit
-MORE_MOVING = 12        # the same of moving points, whose error is near its limit
-MORE_STARTS = 8         # of the search with moving points at the usual step, which scatters
-#: scale, k a, number of seeds
+MORE_SEEDS = 16         # seeds of the longest viscous tube of smooth particles: it rings near the limit
+MORE_MOVING = 12        # seeds of that tube with moving points, whose error is near the limit
+MORE_STARTS = 8         # starts of the search with moving points at the usual step, whose limits scatter
+#: shocked interface: scale, k a, number of seeds
 RIPPLES = ((1.0, 0.25, 3), (1.0, 0.75, 3), (2.0, 0.25, 8), (4.0, 0.25, 7))
-#: case -> rows of grids between plates; more where three left undecided what is a tenth off
+#: case -> rows of grids between plates; more where three grids do not decide what is off by a tenth
 ON_GRIDS = {**dict.fromkeys(LAYERS, (16, 32, 48)), "Ra 1e5": (16, 32, 48, 64, 96),
             "high pressure": (16, 32, 48, 64, 96, 128), "wall corner": (12,), "long rest": (ROWS,)}
 
 
 def cases(size: str) -> Iterator[Case]:
-    """All of them; `quick` is for trying the path out."""
+    """All cases of a size; `quick` only tries out that everything runs."""
     return quick() if size == "quick" else paper()
 
 
 def quick() -> Iterator[Case]:
-    """A few of each kind that takes seconds."""
+    """A few cases of each kind that takes seconds only."""
     yield from smooth_tubes((12, 15, 18), (0.0, 0.5), (1,))
     yield from method_tubes((12, 15, 18), 1)
     yield Interface(scale=0.5)
@@ -116,7 +116,7 @@ def quick() -> Iterator[Case]:
 
 
 def paper() -> Iterator[Case]:
-    """Squares with the printed viscosities, what pairs also nearer to onset, at 5012; all else in turn."""
+    """All cases. Squares have the printed viscosities; the gas that pairs also runs nearer to onset, 5012."""
     for (eos, ra), weight in product(((IdealGas(), 67150.0), (DenseFluid(), 511200.0)), (Monaghan, Lucy)):
         yield Square(eos=eos, weight=weight, ra=ra, t_end=25.0, mean_from=15.0)
     yield Square(weight=Monaghan, ra=1e4, t_end=40.0, mean_from=30.0)
@@ -136,7 +136,7 @@ def paper() -> Iterator[Case]:
 
 def sod(method: str, eta: float, L: int, seed: int = 1, step: float = STEPS[0],
         kind: type[Tube] = Tube) -> Tube:
-    """By one method. L : half of its length, spacings. step : over the limit at the start."""
+    """Sod's tube by one method. L : half of the tube, in spacings. step : over the limit at the start."""
     entrant, look = IN_TUBES[method]
     scene = tubes.Tubes(half=L, law=ConstEta(eta, eta))
     of_entrant = 1.0 if method == "spam" else step
@@ -147,19 +147,19 @@ def sod(method: str, eta: float, L: int, seed: int = 1, step: float = STEPS[0],
 
 
 def kept(seed: int, L: int, longest: int) -> type[Tube]:
-    """Profiles are of the first seed of the longest tube."""
+    """Class of a tube: only the first seed of the longest tube stores its profile."""
     return Profiled if (seed, L) == (1, longest) else Tube
 
 
 def smooth_tubes(lengths: Sequence[int], etas: Sequence[float], seeds: Iterable[int]) -> Iterator[Case]:
-    """Smooth particles."""
+    """Sod's tubes by smooth particles."""
     for L, eta, seed in product(lengths, etas, seeds):
         yield sod("spam", eta, L, seed, STUDIES, kept(seed, L, max(lengths)))
 
 
 def method_tubes(lengths: Sequence[int], seeds: int) -> Iterator[Case]:
-    """All methods, viscosities, lengths; several seeds of disordered points in the most viscous gas, and
-    of the longest tube that may ring.
+    """Sod's tubes by the grid and by points, at all viscosities, steps and lengths. Disordered points have
+    several seeds in the most viscous gas, and in the longest tube that may ring.
     """
     for method, eta, step, L in product((GRID, LATTICE, *RANDOM), ETAS, STEPS, lengths):
         several = eta == max(ETAS) or (eta, L, step) == (BARELY, max(lengths), max(STEPS))
@@ -171,7 +171,7 @@ def method_tubes(lengths: Sequence[int], seeds: int) -> Iterator[Case]:
 # --- the highest Ra -----------------------------------------------------------------------------------------
 
 def highest() -> Iterator[Case]:
-    """Five starts each; of moving points, which cost most, three in short steps, more in usual ones."""
+    """Searches for the highest Ra, five starts each; of moving points MORE_STARTS, three in short steps."""
     yield FineGrid()
     for (method, (attempt, chosen)), step in product(IN_LAYERS.items(), high_ra.STEPS):
         moving = MORE_STARTS if step == high_ra.STEPS[0] else 3
@@ -182,13 +182,13 @@ def highest() -> Iterator[Case]:
 # --- the map ------------------------------------------------------------------------------------------------
 
 def survival(case: str, method: str, entrant: Any, scene: Any, time: float) -> Hard:
-    """Of a method in a case."""
+    """The run of a method in a case of the map."""
     return Hard(into="hard_runs", which={"case": case, "method": method, "rows": round(scene.L)},
                 entrant=entrant, scene=scene, time=time, question=extremes.SURVIVAL)
 
 
 def hard() -> Iterator[Case]:
-    """Layers and boxes, in a corner nothing moves but for round-off; numbers that are known."""
+    """Cases of the map: layers and boxes (in a corner only round-off moves), and probes of known numbers."""
     for case, (scene, time) in SITUATIONS.items():
         for rows in ON_GRIDS.get(case, ()):
             yield OnGrid(into="hard_runs", which={"case": case, "method": GRID, "rows": rows},
@@ -207,7 +207,7 @@ def hard() -> Iterator[Case]:
 
 
 def flows() -> Iterator[Case]:
-    """Pairs in smooth flows; both pressures."""
+    """Smooth flows by edges without and with the entropy-stable flux, and by both of its pressures."""
     for scene, rows, names in FLOWS:
         for count, name in product(rows, names):
             yield from (flow(method, scene, count) for method in (name, PAIRS[name]))
@@ -216,7 +216,7 @@ def flows() -> Iterator[Case]:
 
 
 def flow(method: str, name: str, rows: int) -> Hard:
-    """Of a method in a smooth flow."""
+    """The run of a method in a smooth flow."""
     scene = SCENES[name](rows)
     times, unit = duration(scene)
     return Hard(into="smooth_flows", which={"scene": name, "method": method, "rows": rows},
@@ -224,7 +224,7 @@ def flow(method: str, name: str, rows: int) -> Hard:
 
 
 def trials() -> Iterator[Case]:
-    """Starts and steps at the smaller size, one each at others."""
+    """Trials: several starts and steps at the smallest size, one run at each larger size."""
     for case, column in COLUMNS.items():
         for method, chosen in (column.only or variants(*TRIED)).items():
             small, *large = *column.sizes, *LARGER.get((method, case), ())
@@ -238,7 +238,7 @@ def trials() -> Iterator[Case]:
 
 
 def trial(case: str, method: str, chosen: Any, rows: int, seed: int = 1, step: float = 1.0) -> Hard:
-    """Of a method in a case whose answer is known. step : over the usual one."""
+    """The run of a method in a case whose answer is known. step : over the usual one."""
     scene = COLUMNS[case].scene
     if method == STABLE[-1] and isinstance(scene, impacts.Strip):
         scene = replace(scene, L=ROOMY)

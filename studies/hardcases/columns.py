@@ -1,9 +1,9 @@
-"""Hard cases without viscosity whose answer is known: scene, sizes, what is judged, what is right.
+"""Hard cases without viscosity and with a known answer: scene, sizes, number judged, its value, tolerance.
 
-A scene has `time`, when it is looked at, `fastest`, the largest |v| + c until then, and seen(first, at), what
-is measured of the fields at the start and then. Lengths in spacings, so that a number is the method's, not
-that of its size: waves are so many spacings off, a flow keeps a part of itself. What is allowed was fixed
-before the runs, of waves with the errors of two methods at 100 spacings known.
+A scene has `time`, the end of a run, `fastest`, the largest |v| + c until then, and seen(first, at), numbers
+measured from the fields at the start and at the end. Numbers belong to the method and not to its size: the
+error of a wave is in spacings, that of a flow is the part that is left. Tolerances were fixed before the
+runs; those of waves when the errors of two methods at 100 spacings were known.
 """
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -28,19 +28,19 @@ from studies.hardcases.impacts import PROBLEMS, Bow, Frictionless, Ripple, Strip
 from studies.hardcases.runs import GRID, Course, Question, Row, copied, fate
 from studies.hardcases.tubes import EOS, GAMMA
 
-#: methods that have the entropy-stable flux, too
+#: methods that exist without and with the entropy-stable flux
 EDGES = LATTICE, JITTERED, CARRIED = "fixed-lattice", "fixed-jittered-delaunay", "moving-delaunay"
 PAIRS = {name: f"{name}-entropy-stable" for name in EDGES}
 STABLE = tuple(PAIRS.values())
 BLENDED = f"{LATTICE}-entropy-stable-blended"
-#: points on plates, or on a body
+#: method with points on plates, or on a body
 HELD = "fixed-jittered-plates-entropy-stable"
-COLD = 1e-6         # of what is as good as no temperature
+COLD = 1e-6         # temperature that counts as zero
 
 
 @dataclass(frozen=True, kw_only=True)
 class Sedov(Frictionless):
-    """A disc of two spacings is hot in a cold gas, until the shock has come 0.35 L far at speed 1."""
+    """Blast of a hot disc, two spacings in radius, in cold gas, until the shock is at 0.35 L with speed 1."""
     eos: Any = EOS
     hot: float = 2.0
 
@@ -50,7 +50,7 @@ class Sedov(Frictionless):
 
     @property
     def time(self) -> float:
-        """R = D t (d + 2)/2."""
+        """From R = D t (d + 2)/2 with the shock's speed D = 1 in d = 2 dimensions."""
         return self.radius/2
 
     @property
@@ -59,7 +59,7 @@ class Sedov(Frictionless):
 
     @property
     def fastest(self) -> float:
-        """Sound of the hot disc, and gas that leaves it as fast."""
+        """Twice the speed of sound of the hot disc: gas leaves the disc about as fast as sound."""
         return 2*float(GAMMA*self.T)**0.5
 
     def fields(self, x: np.ndarray) -> Start:
@@ -67,7 +67,7 @@ class Sedov(Frictionless):
         return one, np.zeros((len(x), 2)), np.where(np.hypot(*x.T) < self.hot, self.T, COLD)
 
     def seen(self, first: Fields, at: Fields) -> dict[str, float]:
-        """Radius by the mean radius of the energy, less that of the energy at the start."""
+        """Shock radius from the mean radius of the energy, against that of a blast of the initial energy."""
         heat, now = (f.rho*f.V*(EOS.cv*f.T + (f.v**2).sum(axis=1)/2) for f in (first, at))
         should = (heat.sum()*self.time**2/blast(GAMMA).alpha)**0.25
         has = now@radii(at)/now.sum()/blast(GAMMA).radius
@@ -76,10 +76,10 @@ class Sedov(Frictionless):
 
 @dataclass(frozen=True, kw_only=True)
 class Noh(Frictionless):
-    """A cold gas that falls to the middle at speed 1 and rests behind a shock, rho = 16, P = 16/3, r < t/3;
-    it starts from rest at the sides, 0.05 L away    [Noh 1987]"""
+    """Cold gas that falls to the middle at speed 1 and rests behind a shock: rho = 16, P = 16/3 at r < t/3.
+    Its speed at the start falls to zero over the last 0.05 L before the sides    [Noh 1987]"""
     eos: Any = IdealGas(cv=1.5)  # noqa: RUF009 (immutable)
-    fastest: ClassVar[float] = 7/3      # sound behind the shock, sqrt(gamma P/rho) = 0.75, and ahead of it 1
+    fastest: ClassVar[float] = 7/3      # above c = sqrt(gamma P/rho) = 0.75 behind the shock, |v| = 1 ahead
 
     @property
     def time(self) -> float:
@@ -91,7 +91,7 @@ class Noh(Frictionless):
         return np.ones(len(x)), inwards[:, None]*x, COLD*np.ones(len(x))
 
     def seen(self, first: Fields, at: Fields) -> dict[str, float]:
-        """Radius by the heat, which is 8 in each place behind the shock."""
+        """Shock radius from the heat around the middle; behind the shock there is 8 per area."""
         here = radii(at) < 0.25*self.L/2
         heat = (at.rho*at.V*self.eos.cv*at.T)[here].sum()
         has, should = (heat/(8*pi))**0.5, self.time/3
@@ -100,7 +100,7 @@ class Noh(Frictionless):
 
 @dataclass(frozen=True, kw_only=True)
 class Gresho(Frictionless):
-    """A vortex of even density that its pressure holds together, at Mach 0.1, for its fastest turn."""
+    """Vortex of uniform density balanced by its pressure, at Mach 0.1, for one turn where it is fastest."""
     speed: ClassVar[float] = 0.1*SOUND
     fastest: ClassVar[float] = 1.1*SOUND
 
@@ -114,14 +114,14 @@ class Gresho(Frictionless):
         return np.ones(len(x)), v, P
 
     def seen(self, first: Fields, at: Fields) -> dict[str, float]:
-        """What is left of the flow, noise left out."""
+        """Part of the flow that is left: velocities projected on the exact ones, which leaves out noise."""
         v, m = gresho.velocity(at.x/self.L)*self.speed, at.rho*at.V
         return {"measured": float(m@(at.v*v).sum(axis=1)/(m@(v**2).sum(axis=1)))}
 
 
 @dataclass(frozen=True, kw_only=True)
 class KelvinHelmholtz(Frictionless):
-    """Waves on u = U sin ky for ten growth times, until they have broken: K stays, but for Mach squared."""
+    """Waves on u = U sin ky for ten growth times, until they have broken; K is constant to Mach squared."""
     fastest: ClassVar[float] = SOUND + U
     wide: ClassVar[int] = 2
 
@@ -140,7 +140,7 @@ class KelvinHelmholtz(Frictionless):
 
 @dataclass(frozen=True, kw_only=True)
 class Turns(TaylorGreen):
-    """A vortex without viscosity, which keeps its K."""
+    """Taylor-Green vortex without viscosity: K is constant."""
     turns: float = 100.0
     mach: float = SPEED/SOUND
     law: ConstEta = ConstEta(0.0, 0.0)  # type: ignore[misc]  # noqa: RUF009 (immutable)
@@ -155,14 +155,14 @@ class Turns(TaylorGreen):
 
 
 def left(first: Fields, at: Fields) -> dict[str, float]:
-    """Of K."""
+    """Kinetic energy at the end over that at the start."""
     return {"measured": kinetic_energy(at)/kinetic_energy(first)}
 
 
 class Column(NamedTuple):
-    """A scene, its sizes, the number that decides, what it should be, how far off it may be, and why so far.
+    """A scene, its sizes, the number that is judged, its expected value, its tolerance and the reason for it.
 
-    only : who takes part, once, where runs are long.
+    only : the methods that run, where runs are long or methods need a body; empty: the usual ones.
     """
     scene: Any
     sizes: tuple[int, ...]
@@ -173,7 +173,7 @@ class Column(NamedTuple):
     only: Mapping[str, Any] = MappingProxyType({})
 
     def right(self, value: float) -> bool:
-        """Is a value what it should be?"""
+        """Whether a value is within the tolerance."""
         return abs(value - self.expected) <= self.within
 
 
@@ -197,26 +197,26 @@ COLUMNS = {name: Column(Strip(problem=problem, cells=50), (50, 100), *WAVES)
 }
 
 
-# --- what is asked ------------------------------------------------------------------------------------------
+# --- questions ----------------------------------------------------------------------------------------------
 
 def measured(scene: Any, course: Course) -> Row:
-    """What a scene measures of a run that has come to its end."""
+    """Numbers that a scene measures of a run, if it reached its end."""
     numbers = scene.seen(course.seen[0], course.seen[-1]) if course.reached == 1 else {}
     return fate(course) | numbers
 
 
 def halved(sums: Any, state: np.ndarray) -> int:
-    """Parts of steps that were halved so far."""
+    """Number of parts of steps halved so far."""
     return sums.refused     # type: ignore[no-any-return]
 
 
 def limited(sums: Any, state: np.ndarray) -> int:
-    """Euler steps with limits so far."""
+    """Number of Euler steps with limited fluxes so far."""
     return sums.limited     # type: ignore[no-any-return]
 
 
 def switching(scene: Any, course: Course) -> Row:
-    """The same, and how much the flux had to do."""
+    """As `measured`, with the share of edges that dissipate, the number of halvings and of limited steps."""
     if course.reached < 1:
         return measured(scene, course)
     share, halves, limits = (course.watched[name] for name, _ in WATCHED)
@@ -225,7 +225,7 @@ def switching(scene: Any, course: Course) -> Row:
 
 
 def smooth_error(scene: Any, course: Course) -> Row:
-    """Rms error of velocities over the fastest of the start, of convection K."""
+    """Rms error of velocities over the fastest of the start; K of convection, whose flow is not known."""
     first, last = course.seen[0], course.seen[-1]
     known, exact = (velocities(scene, at) for at in (first, last))
     if not known.any():
@@ -235,7 +235,7 @@ def smooth_error(scene: Any, course: Course) -> Row:
 
 
 def velocities(scene: Any, at: Fields) -> np.ndarray:
-    """(n, 2) of the answer, zero where it is not known."""
+    """Exact velocities (n, 2), zero where there is no exact answer."""
     known = answer(scene, at.x)
     return np.stack([known.get(name, np.zeros(len(at.x))) for name in ("vx", "vy")], axis=1)
 

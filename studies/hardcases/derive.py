@@ -1,13 +1,13 @@
-"""Rows that follow from whole ones: growth of ripples, the highest Ra, and the map.
+"""Rows derived from those of runs: growth of ripples, the highest Ra, and the map.
 
 Rules of the map, written before the runs. diverges: the run did not reach its end. leaks: mass changed by
-more than LEAK. freezes: less than FROZEN of the flow is left. right: the number is within NEAR, and what the
-reference is uncertain by, of what it should be; without viscosity within what `columns` allows, in all starts
-and steps of a size. wrong: stable, and none of these. A shock tube is right if v neither rings nor is off by
-more than NEAR, and diverges if a tube of any length did. refused: the method says itself that it does not
-take the case. With 32 rows K stands in for the flow, whose cells are those of 16 rows: set after a look.
-unjudged: there is nothing to hold it against, since no two grids besides itself came to their end, or a rate
-is known to worse than NEAR.
+more than LEAK. freezes: less than FROZEN of the flow is left. right: the number differs from its expected
+value by at most NEAR plus the uncertainty of the reference; without viscosity by at most the tolerance of
+`columns`, in all starts and steps of a size. wrong: stable, and none of these. A shock tube is right if v
+neither rings nor is off by more than NEAR, and diverges if a tube of any length did. refused: the method
+itself rejects the case. unjudged: there is no reference, since fewer than two other grids reached their end,
+or a number is within NEAR in a part of its interval only. With 32 rows K is judged in place of the flow,
+whose averaging cells are those of 16 rows: set after a look.
 """
 from collections.abc import Callable, Iterator
 from typing import Any
@@ -24,10 +24,10 @@ from studies.kit.stats import Measured, combine, over_seeds
 from studies.kit.table import Rows, Tables, groups
 
 Row = dict[str, Any]
-SETTLED = 0.3           # part of the time from the shock to its return that the ripple takes to grow steadily
-ENOUGH = 0.65           # until which a run has to last: half of what is then left
+SETTLED = 0.3           # part of the time from the shock to its return after which the ripple grows steadily
+ENOUGH = 0.65           # part of that time that a run has to last: half of what SETTLED leaves
 LEAK, FROZEN, NEAR = 1e-3, 0.1, 0.1
-SPURIOUS = 1e-3         # of the speed of sound: a hundredth of what flows of KHP95 have
+SPURIOUS = 1e-3         # over the speed of sound: a hundredth of the flows of KHP95
 MIDDLE = 50.5/60        # mean time of the samples 41 to 60 of 60
 PART_OF_TIME = "part of the time"
 HELD_TOO = PAIRS | {HELD.removesuffix("-entropy-stable"): HELD}
@@ -48,9 +48,9 @@ def derive(tables: Tables) -> Rows:
 
 
 def ripple_growth(ripples: pd.DataFrame) -> Iterator[Row]:
-    """Growth rates over that of theory: means over the runs that lasted, also of those that ended late.
+    """Growth rates of ripples over that of theory, means over the runs that lasted beyond ENOUGH.
 
-    Straight lines through amplitudes once growth is steady.
+    A rate is the slope of a straight line through the amplitudes after SETTLED.
     """
     for (scale, steep), group in groups(ripples.dropna(subset=["height"]), ["scale", "steep"]):
         theory = impulse(scale, steep)
@@ -63,9 +63,9 @@ def ripple_growth(ripples: pd.DataFrame) -> Iterator[Row]:
 
 
 def high_ra_summary(limits: pd.DataFrame, grid: pd.DataFrame) -> Iterator[Row]:
-    """Geometric means and extremes over starts that have a limit; what most of these do beyond it.
+    """Geometric mean and range of the limits of Ra over starts that have one; most frequent outcome there.
 
-    Cell numbers of the fastest flow are a power of Ra, through the fine grid's.
+    Cell numbers of the fastest flow are from a power law in Ra, fitted to those of the fine grid.
     """
     fine = grid.dropna(subset=["cell_number"])
     slope, constant = np.polyfit(np.log(fine.ra), np.log(fine.cell_number), 1)
@@ -89,7 +89,7 @@ def entry(case: str, method: str, variant: str, outcome: str, number: str, measu
 
 
 def of_runs(runs: pd.DataFrame) -> Iterator[Row]:
-    """Points and the coarse grid against what is known."""
+    """Rows of the map for `hard_runs`: particles, points and coarse grids against references."""
     judged = runs[(runs.method != "grid") | (runs.rows <= ROWS) | runs.case.isin(BOXES)]
     for _, run in judged.iterrows():
         number, ratio = decisive(runs, run)
@@ -101,22 +101,22 @@ def of_runs(runs: pd.DataFrame) -> Iterator[Row]:
 
 
 def decisive(runs: pd.DataFrame, run: pd.Series) -> tuple[str, Measured]:
-    """The number that decides a case, by its name: layers are held against the grid."""
-    if run.case in ("wall corner", "long rest"):        # of what should be at rest
+    """Name and value of the number that decides a case; in layers it is compared with the grid's."""
+    if run.case in ("wall corner", "long rest"):        # at rest but for errors
         return "speed/c", Measured(np.sqrt(2*run.k)/SOUND)
-    if run.case == "vacuum":            # of two rarefactions
+    if run.case == "vacuum":            # exact: two rarefactions
         return "K/exact", Measured(run.k/rarefied(MIDDLE*BOXES["vacuum"].time))
     if run.case in ("zero viscosity", "a million points"):      # nothing slows the flow down
         return "flow/start", Measured(run.flow/run.flow_start)
-    if run.method != "grid" and run.rows != ROWS:       # cells of mean flow are another part of the height
+    if run.method != "grid" and run.rows != ROWS:       # averaging cells are another part of the height
         return "K/grid", over_grid(runs, run, "k")
     return "flow/grid", over_grid(runs, run, "flow")
 
 
 def over_grid(runs: pd.DataFrame, run: pd.Series, name: str) -> Measured:
-    """A column over that of the finest grid that came to its end; error: what the next coarser one changes.
+    """A column over that of the finest grid that reached its end; error: change from the next coarser one.
 
-    A grid is no judge of itself: neither the reference nor its error come from the rows that are judged.
+    A grid is not compared with itself: neither the reference nor its error use the rows that are judged.
     """
     grids = runs[(runs.case == run.case) & (runs.method == "grid")].dropna(subset=[name])
     if run.method == "grid":
@@ -129,7 +129,7 @@ def over_grid(runs: pd.DataFrame, run: pd.Series, name: str) -> Measured:
 
 
 def outcome(run: pd.Series, number: str, ratio: Measured) -> str:
-    """By the rules at the head of this file."""
+    """The verdict on a run, by the rules at the head of this file."""
     if isinstance(run.refused, str) and run.refused:
         return "refused"
     if not run.reached >= 1:
@@ -147,7 +147,7 @@ def outcome(run: pd.Series, number: str, ratio: Measured) -> str:
 
 
 def of_probes(probes: pd.DataFrame) -> Iterator[Row]:
-    """Numbers over what is known, or next to nothing: right or wrong if the whole interval is."""
+    """Rows of the map for `probes`, numbers over known ones; a verdict holds for all of the interval."""
     for _, run in probes.sort_values(["case", "method"]).iterrows():
         ratio = Measured(run.measured, run.measured_err)/(run.predicted or 1.0)
         wanted, probe = float(run.predicted != 0), PROBES[run.case]
@@ -163,7 +163,7 @@ def of_probes(probes: pd.DataFrame) -> Iterator[Row]:
 
 
 def of_tubes(tubes: pd.DataFrame) -> Iterator[Row]:
-    """Shock tubes by viscosity, usual step: how much v rings in the longest, or that one ended."""
+    """Rows of the map for shock tubes at the usual step: ringing of v in the longest, or an early end."""
     usual = tubes[tubes.step != min(STEPS)]
     for (method, eta), rows in groups(usual, ["method", "eta"]):
         place, reached = ("shock tube", method, f"eta {eta:g}"), rows.reached.min()
@@ -177,7 +177,7 @@ def of_tubes(tubes: pd.DataFrame) -> Iterator[Row]:
 
 
 def of_trials(trials: pd.DataFrame) -> Iterator[Row]:
-    """Starts and steps of one size together: the one farthest off, or that one ended."""
+    """Rows of the map for trials: of all starts and steps of a size the worst value, or an early end."""
     for (case, method, rows), runs in groups(trials, ["case", "method", "rows"]):
         column, place, reached = COLUMNS[case], (case, method, f"{rows} rows"), runs.reached.min()
         if runs.refused.any():
@@ -193,7 +193,7 @@ def of_trials(trials: pd.DataFrame) -> Iterator[Row]:
 
 
 def needs(rows: pd.DataFrame) -> Iterator[Row]:
-    """Pairs of methods in the same case: what edges do without the entropy-stable flux, and with it."""
+    """Outcomes of the same edges in the same case without and with the entropy-stable flux."""
     outcomes = {(case, variant, method): outcome for case, variant, method, outcome
                 in rows[["case", "variant", "method", "outcome"]].to_numpy()}
     for (case, variant, method), outcome in outcomes.items():
@@ -202,6 +202,6 @@ def needs(rows: pd.DataFrame) -> Iterator[Row]:
                    "needed": "yes" if outcome == "diverges" != other else "no"}
 
 
-#: table -> rows of the map
+#: table -> what makes its rows of the map
 OF_MAP: dict[str, Callable[[pd.DataFrame], Iterator[Row]]] = {
     "hard_runs": of_runs, "probes": of_probes, "method_tubes": of_tubes, "trials": of_trials}

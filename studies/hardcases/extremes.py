@@ -1,6 +1,6 @@
-"""Layers and boxes, and what is asked there of any method    [KHP95, Sec. VI; RR98, Sec. III]
+"""Hard layers and boxes, and what is measured there of any method    [KHP95, Sec. VI; RR98, Sec. III]
 
-All have 16 rows or so: the question is who gives way first. Units: spacing, mean density, P/rho at T = 1.
+All have about 16 rows: which method fails first? Units: spacing, mean density, P/rho at T = 1.
 """
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -23,19 +23,19 @@ from studies.kit.fits import line
 
 ROWS = 16
 SOUND = sqrt(2)
-SPEED = 0.1         # of the vortex: Mach number 0.07
-U, BEGIN = 0.15, 0.01       # of the shear flow: Mach number 0.1; size of the wave over U at the start
+SPEED = 0.1         # largest velocity of the vortex: Mach number 0.07
+U, BEGIN = 0.15, 0.01       # of the shear flow: speed, Mach number 0.1; size of its wave at the start over U
 Velocities = tuple[np.ndarray, np.ndarray]
 
 
 def vortex(x: np.ndarray, y: np.ndarray, L: float) -> Velocities:
-    """A steady Taylor-Green vortex, which passes through no plate."""
+    """Velocities of a steady Taylor-Green vortex; at plates they are tangential."""
     k = 2*np.pi/L
     return SPEED*np.sin(k*x)*np.cos(k*y), -SPEED*np.cos(k*x)*np.sin(k*y)
 
 
 def sheared(x: np.ndarray, y: np.ndarray, L: float) -> Velocities:
-    """U sin ky and its fastest wave, of size BEGIN U."""
+    """Velocities U sin ky with the fastest growing wave on them, of amplitude BEGIN U."""
     places = np.stack([x, y], axis=-1)
     v = layer_with_wave(places.reshape(-1, 2), U, 2*pi/L, BEGIN).reshape(places.shape)
     return v[..., 0], v[..., 1]
@@ -43,9 +43,9 @@ def sheared(x: np.ndarray, y: np.ndarray, L: float) -> Velocities:
 
 @dataclass(frozen=True, kw_only=True)
 class Chamber(Slab):
-    """A gas between plates, with velocities(x, y, L) at the start; of a strip only |x| < L is dense.
+    """A gas between plates that starts with velocities(x, y, L). strip : whether only |x| < L is dense.
 
-    ripple : of densities, up and down from one spacing to the next.
+    ripple : amplitude of densities that alternate from one spacing to the next.
     """
     viscosity: float = 0.0
     heat: float = 0.0
@@ -54,7 +54,7 @@ class Chamber(Slab):
     ripple: float = 0.0
 
     def flow(self, x, y, ke: float = 0.0, rolls: int | None = None) -> Velocities:
-        """Velocities; `ke` and `rolls` say nothing here."""
+        """Velocities at the start; `ke` and `rolls` are ignored."""
         return self.velocities(x, y, self.L) if self.velocities else (0*x, 0*y)
 
     def fields(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -70,9 +70,9 @@ STRIP = Chamber(L=8.0, aspect=12.0, strip=True)
 CORNER = Chamber(L=12.0, aspect=1.0, viscosity=0.3, heat=0.3, sides=Walls())
 CROWD = Chamber(L=1000.0, aspect=1.0, velocities=vortex)
 CHESSBOARD = Chamber(L=12.0, aspect=1.0, viscosity=0.3, heat=0.3, ripple=0.1)
-#: without viscosity; that it conducts heat keeps drifting points from ending at once
+#: without viscosity; conduction of heat keeps runs of drifting points from ending at once
 SHEAR_FLOW = Chamber(L=16.0, aspect=2.0, heat=2*pi/16, velocities=sheared)
-#: of the shear flow, and the growth rate of its fastest wave, which is twice as long
+#: wave number of the shear flow, and growth rate of its fastest wave, which is twice as long
 WAVE_NUMBER = 2*pi/SHEAR_FLOW.L
 RATE, _ = growing_wave(U, WAVE_NUMBER, WAVE_NUMBER/2)
 
@@ -89,23 +89,23 @@ def rarefied(t: float) -> float:
 
 
 def layer(ra: float, pr: float = 1.0, T: float = 1.0) -> RayleighBenard:
-    """KHP95's layer at another mean temperature: the static pressure is T, the flow is that of Ra and Pr."""
+    """KHP95's layer with mean temperature T: the static pressure is T, the flow that of Ra and Pr."""
     return RayleighBenard(ra=ra, pr=pr, L=float(ROWS), T_hot=T + 0.5, T_cold=T - 0.5)
 
 
 def falls(scene: RayleighBenard, times: float) -> float:
-    """So many free-fall times."""
+    """Time of so many free falls, in the units of the scene."""
     return times*scene.L/scene.free_fall
 
 
 class Situation(NamedTuple):
-    """A scene, and how long it is followed."""
+    """A scene and the duration of its runs."""
     scene: Any
     time: float
 
 
 def convection(times: float, *layer_of: float) -> Situation:
-    """A layer, followed for so many free-fall times."""
+    """The layer of these numbers and a duration of so many free-fall times."""
     scene = layer(*layer_of)
     return Situation(scene, falls(scene, times))
 
@@ -121,8 +121,8 @@ LAYERS = {
     "disordered points": convection(30.0, 1e4),
     "narrow weight": convection(30.0, 1e4),
 }
-#: the vortex turns SPEED t/L = 5 times, rarefactions come within 0.7 of the middle, sound crosses 35 times;
-#: a layer below onset rests, a million points take a hundred steps or so
+#: the vortex turns SPEED t/L = 5 times, rarefactions go 0.7 of the way to the middle, sound crosses the
+#: corner 35 times, the layer below onset stays at rest, a million points take about a hundred steps
 BOXES = {
     "zero viscosity": Situation(VORTEX, 800.0),
     "vacuum": Situation(STRIP, 0.7*8/SOUND),
@@ -133,20 +133,20 @@ BOXES = {
 SITUATIONS = {**LAYERS, **BOXES}
 
 
-# --- what is asked ------------------------------------------------------------------------------------------
+# --- questions ----------------------------------------------------------------------------------------------
 
-LATE = 2/3          # of a run: means are over what comes after
-SPACINGS = 4        # of a cell over which velocities are averaged: what is left is flow, the rest noise
-GROWN = 2.5/RATE    # time of a wave on a shear flow, which ends with a tenth of U
+LATE = 2/3          # part of a run after which means are taken
+SPACINGS = 4        # width of a cell over which velocities are averaged: their mean is flow, the rest noise
+GROWN = 2.5/RATE    # duration of the shear flow, whose wave ends with a tenth of U
 
 
 def late(values: Any) -> slice:
-    """The last third of samples, the start being the first."""
+    """Slice of the last third of the samples, the start being the first one."""
     return slice(min(round(LATE*len(values)), len(values) - 1), None)
 
 
 def flow(at: Fields, box: tuple[float, float]) -> float:
-    """K per mass of mean velocities in cells of SPACINGS, which have no noise between neighbours."""
+    """K per mass of velocities averaged in cells of SPACINGS, which removes noise between neighbours."""
     size, m = np.array(box), at.rho*at.V
     cells = np.maximum(1, np.round(size/SPACINGS)).astype(int)
     place = np.clip(((at.x/size + 0.5)*cells).astype(int), 0, cells - 1)
@@ -157,17 +157,17 @@ def flow(at: Fields, box: tuple[float, float]) -> float:
 
 
 def energies(scene: Any, at: Fields) -> tuple[float, float, float]:
-    """K and the flow's per mass, and the mass."""
+    """K per mass, K per mass of the averaged flow, and the mass."""
     return kinetic_energy(at), flow(at, (scene.width, scene.L)), float((at.rho*at.V).sum())
 
 
 def seen(scene: Any, method: Any, state: np.ndarray) -> tuple[float, float, float]:
-    """These of any method."""
+    """The `energies` of a state of any method."""
     return energies(scene, method.fields(state))
 
 
 def means(scene: Any, course: Course) -> Row:
-    """Means over the last third, if it was reached; the mass, and what there was at the start."""
+    """Means over the last third, if the run reached its end; change of the mass, energies at the start."""
     k, moves, mass = np.transpose(course.seen)
     last = late(k)
     whole = {"k": k[last].mean(), "flow": moves[last].mean()} if course.reached == 1 else {}
@@ -175,12 +175,12 @@ def means(scene: Any, course: Course) -> Row:
             **fate(course)}
 
 
-#: does a method come to the end, and with which K, flow and mass?
+#: does a run reach its end, and with which K, flow and mass?
 SURVIVAL = Question(seen, means)
 
 
 class OnGrid(Hard):
-    """The same of the compressible grid between plates, in a time loop of its own. entrant : its rows."""
+    """A hard case of the compressible grid between plates, in its own time loop. entrant : number of rows."""
 
     def run(self, report: Report, folder: Path) -> Outcome:
         start = initial(self.scene, self.entrant, START_ENERGY)
@@ -195,20 +195,20 @@ class OnGrid(Hard):
                             k_start=k_start, flow_start=flow_start, **came)
 
     def energies(self, fields: NodeFields) -> tuple[float, float, float]:
-        """Of nodes of one mass each, those in plates too."""
+        """The `energies` of nodes of unit volume each, nodes in plates included."""
         at = at_nodes(fields)
         return energies(self.scene, at._replace(V=np.ones_like(at.rho)))
 
 
 def amplitude(scene: Any, method: Any, state: np.ndarray) -> float:
-    """Size of v exp(-i k_x x), the mean over the mass, of the wave on the shear flow."""
+    """Amplitude of the wave on the shear flow: |<v_y exp(-i k_x x)>|, the mean over mass."""
     at = method.fields(state)
     wave, m = np.exp(-1j*WAVE_NUMBER/2*at.x[:, 0]), at.rho*at.V
     return float(abs(np.sum(m*at.v[:, 1]*wave))/m.sum())
 
 
 def growth(scene: Any, course: Course) -> Row:
-    """The rate of this wave."""
+    """Growth rate of that wave, predicted and measured."""
     row = {"predicted": RATE, "reached": course.reached}
     if course.reached < 1:
         return row
@@ -218,19 +218,19 @@ def growth(scene: Any, course: Course) -> Row:
 
 
 def unevenness(scene: Any, method: Any, state: np.ndarray) -> float:
-    """Rms deviation of densities from their mean."""
+    """Rms deviation of densities from their mean, 1."""
     at = method.fields(state)
     return float(np.sqrt(at.V@(at.rho - 1)**2/at.V.sum()))
 
 
 def left(scene: Any, course: Course) -> Row:
-    """What is left in the last third, over what there was at the start; nothing should be."""
+    """Mean of the last third over the value at the start; it should be 0."""
     measured = np.mean(course.seen[late(course.seen)])/course.seen[0] if course.reached == 1 else np.nan
     return {"predicted": 0.0, "measured": measured, "measured_err": 0.0, "reached": course.reached}
 
 
 class Probe(NamedTuple):
-    """A scene without its plates, how long it is followed, what is asked, and the number's name."""
+    """A scene that runs without plates, its duration, its question, and the name of the number."""
     scene: Any
     time: float
     question: Question

@@ -22,14 +22,14 @@ DASHED: dict[str, Any] = {"color": "black", "linestyle": LINES[-1], "marker": ""
 
 
 def dots(number: int, size: float = 2) -> dict[str, Any]:
-    """Marks without a line."""
+    """Style of markers without a line."""
     return {**look(number), "linestyle": "none", "markersize": size}
 
 
 CASES = (*LAYERS, *BOXES, *PROBES, *(f"shock tube eta {eta:g}" for eta in ETAS), *COLUMNS)
-MANY = 3                # cases of a method, and methods of a case, from which on the map has a line for it
-LISTED = "entropy-stable"  # ends the names of methods with the ingredient
-#: largest errors, over what is allowed, of the shades, of which the last are for runs that ended
+MANY = 3                # least number of a method's cases, and of a case's methods, that the map shows
+LISTED = "entropy-stable"  # ends the names of methods with the entropy-stable flux
+#: limits of error/tolerance between the shades, of which the last is for runs that ended early
 LEVELS, SHADES = (1.0, 5.0, 1e9), ListedColormap(["#DEEBF7", "#F5C26B", "#D55E00", "#3B0F4F"])
 #: outcome -> what stands in place of a number
 WORDS = {"diverges": "ends", "freezes": "stops", "refused": "no", "unjudged": "?"}
@@ -42,8 +42,8 @@ KEY = ("A cell is the worst error of all sizes, starts and steps over the error 
 
 
 def judged(rows: pd.DataFrame) -> pd.DataFrame:
-    """Rows of cases with `error`, over what is allowed (infinite where a run ended early), its `shade`
-    (-1: none) and a case for each tube."""
+    """Rows of the map's cases with `error`, over the tolerance (infinite where a run ended early), its
+    `shade` (-1: none), and one case for each viscosity of the tube."""
     tube = rows.case.where(rows.case != "shock tube", rows.case + " " + rows.variant)
     rows = rows.assign(case=tube)[tube.isin(CASES)]
     known = rows.case.map({name: column.within for name, column in COLUMNS.items()})
@@ -86,12 +86,12 @@ def chart(rows: pd.DataFrame) -> Figure:
 
 
 def place_of(method: str) -> tuple[int, str]:
-    """Methods of the trials first, in their order."""
+    """Key to sort methods by: those of the trials first, in their order."""
     return TRIED.index(method) if method in TRIED else len(TRIED), method
 
 
 def tenths(error: float) -> str:
-    """A tenth below 9.5, none above."""
+    """An error as text: with one decimal below 9.5, without above."""
     return f"{error:.1f}" if error < 9.5 else f"{error:.0f}" if error < 1e4 else f"{error:.0e}"
 
 
@@ -122,7 +122,7 @@ def shocks(ripples: pd.DataFrame) -> Figure:
 
 
 def band(axes: Any, values: pd.Series, time: pd.Series, number: int, label: str) -> None:
-    """Mean and range over seeds, in time."""
+    """Plot mean and range over seeds against time."""
     of_seeds = values.groupby(time).agg(["mean", "min", "max"])
     style = look(number) | {"marker": ""}
     axes.plot(of_seeds["mean"], **style, label=label)
@@ -130,7 +130,7 @@ def band(axes: Any, values: pd.Series, time: pd.Series, number: int, label: str)
 
 
 ALL = (*IN_LAYERS, "spam")
-SHIFT = 0.6             # between methods' densities, upwards
+SHIFT = 0.6             # vertical distance between the densities of two methods
 
 
 def shock_methods(rows: pd.DataFrame, profiles: pd.DataFrame) -> Figure:
@@ -151,7 +151,7 @@ def shock_methods(rows: pd.DataFrame, profiles: pd.DataFrame) -> Figure:
 
 
 def densities(axes: Any, profiles: pd.DataFrame, rows: pd.DataFrame) -> None:
-    """Each method's own, or when its longest run ended."""
+    """Plot the density of each method's longest tube, or write when this run ended."""
     for number, method in enumerate(ALL):
         up, profile = SHIFT*number, profiles[profiles.method == method]
         reached = rows.reached[rows.method == method]
@@ -166,8 +166,8 @@ def densities(axes: Any, profiles: pd.DataFrame, rows: pd.DataFrame) -> None:
             axes.text(0.98, up + 0.2, words, ha="right", fontsize=8)
 
 
-BINS = 4                # of Ra, a decade
-#: kind of limit -> height beside its line, face of its marks
+BINS = 4                # of Ra per decade
+#: kind of limit -> shift from the method's line, style of its markers
 LIMITS: dict[str, tuple[float, dict]] = {"wrong": (0.3, {"markerfacecolor": "white"}), "ends": (-0.3, {})}
 
 
@@ -192,7 +192,7 @@ def highest(rows: pd.DataFrame, summary: pd.DataFrame) -> Figure:
 
 
 def trend(axes: Any, rows: pd.DataFrame, number: int, label: str) -> None:
-    """All runs that came to their end, pale, and their medians in bins of Ra."""
+    """Plot all runs that reached their end, pale, and their medians in bins of Ra."""
     axes.plot(rows.ra, rows.over, **dots(number, 3), alpha=0.4)
     bins = (BINS*np.log10(rows.ra)).round()
     middle = rows.groupby(bins)[["ra", "over"]].median()
@@ -200,7 +200,7 @@ def trend(axes: Any, rows: pd.DataFrame, number: int, label: str) -> None:
 
 
 def fates(axes: Any, rows: pd.DataFrame, limits: pd.DataFrame, number: int) -> None:
-    """A line of runs and of limits, means over starts and their range."""
+    """Plot on a method's line its runs and its limits: means over starts and their range."""
     for whole, marker, side in ((True, "|", 0.12), (False, "x", -0.12)):
         ra = rows.ra[(rows.reached >= 1) == whole]
         axes.plot(ra, 0*ra + number + side, color="0.5", marker=marker, markersize=5, linestyle="")

@@ -1,14 +1,14 @@
-"""Up to which Rayleigh number do 16 rows last? KHP95's layer, followed for 50 free-fall times.
+"""The highest Rayleigh number that 16 rows bear: KHP95's layer, followed for 50 free-fall times.
 
-A run is wrong if K of its last third is off by a factor of more than OFF from the grid's of 48 rows at the
-same Ra, or if it ended before. The map calls a tenth wrong, of flow at Ra 1e5 and 1e6; grids of 16 and of 96
+A run is wrong if it ends early, or if K of its last third differs by more than the factor OFF from that of a
+grid of 48 rows at the same Ra. The map calls a tenth wrong, of flow at Ra 1e5 and 1e6; grids of 16 and of 96
 rows differ by a tenth in K at Ra 1e5, so that OFF leaves room for as much again. Ra is raised by half decades
-until a run is wrong, and beyond until one ends; then the interval is halved, on the scale of v a/nu of the
-free-fall velocity, (Ra/Pr)^(1/2)/16. Whether K is off is asked up to 1e6 only, as far as the fine grid has
-been seen to come. All is done again in shorter steps, since v grows after these are chosen.
+until a run is wrong, and further until one ends; then the interval is halved on the scale of the cell number
+v a/nu of the free-fall velocity, (Ra/Pr)^(1/2)/16. K is judged up to Ra 1e6 only, since the fine grid is not
+known to reach its end beyond. All is repeated with shorter steps, since v grows after the step is chosen.
 
 Expected: central differences keep order while v a/nu of the fastest flow, that of the fine grid, is below 2.
-This is no limit of stability: no formula is known that says where a run ends.
+This is no limit of stability: no formula is known that predicts where a run ends.
 """
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -31,20 +31,20 @@ from studies.hardcases.extremes import ROWS, falls, layer
 from studies.hardcases.runs import SAMPLES, between_plates, followed
 from studies.kit.case import Case, Outcome, Report
 
-OFF = 1.25              # factor in K
-STEPS = (1.0, 0.25)     # over those of other studies
-FINE = 48               # rows of the grid that tells what K should be
+OFF = 1.25              # factor in K beyond which a run is wrong
+STEPS = (1.0, 0.25)     # time steps over those of other studies
+FINE = 48               # rows of the reference grid
 RUNGS = tuple(float(f"{10.0**(n/2):.9g}") for n in range(8, 17))        # 1e4 .. 1e8
-KNOWN = 1e6             # Ra up to which K is held against the fine grid
+KNOWN = 1e6             # Ra up to which K is compared with the fine grid
 TIME = 50.0             # free-fall times, as in the map
-LATE = slice(41, None)  # samples of which K is averaged, the start being the first
-NOISE = 1e-6            # of the density at the start, by which seeds differ where points do not
+LATE = slice(41, None)  # samples over which K is averaged, the start being the first one
+NOISE = 1e-6            # relative noise of the start, by which seeds differ where points do not
 
 
 class Attempt(NamedTuple):
-    """K of the last third, not a number if the run ended before, and the part of the time that it reached.
+    """Mean K of the last third of a run, nan if it ended early, and the part of the time that it reached.
 
-    cell_number : of a grid's fastest flow at the end, in cells of 16 rows.
+    cell_number : v a/nu of a grid's fastest flow at the end, with the spacing a of 16 rows.
     """
     k: float
     reached: float
@@ -52,18 +52,18 @@ class Attempt(NamedTuple):
 
 
 def ripple(seed: int, *shape: int) -> np.ndarray:
-    """Factors that are 1 but for NOISE."""
+    """Random factors, 1 with relative noise NOISE."""
     return 1 + NOISE*np.random.default_rng(seed).standard_normal(shape)
 
 
 def rippled(scheme: Scheme, scene: Any, seed: int) -> Ready:
-    """Fixed points whose densities differ by NOISE."""
+    """Fixed points whose start has relative noise NOISE."""
     method, start, _ = scheme.ready(scene, seed)
     return stepped(method, start*ripple(seed, len(method.x)), OF_LIMIT)
 
 
 def on_points(variant: Any, ra: float, seed: int, step: float) -> Attempt:
-    """Fixed or moving points. variant : has ready(scene, seed)."""
+    """Run fixed or moving points at one Ra. variant : has ready(scene, seed)."""
     scene = layer(ra)
     ready = variant.ready(scene, seed)
     seen, reached, _ = followed(ready._replace(dt=step*ready.dt), falls(scene, TIME), SAMPLES, kinetic)
@@ -71,12 +71,12 @@ def on_points(variant: Any, ra: float, seed: int, step: float) -> Attempt:
 
 
 def kinetic(method: Any, state: np.ndarray) -> float:
-    """K per mass."""
+    """Kinetic energy per mass."""
     return kinetic_energy(method.fields(state))
 
 
 def on_grid(rows: int, ra: float, seed: int, step: float) -> Attempt:
-    """The compressible grid."""
+    """Run the compressible grid at one Ra."""
     scene = layer(ra)
     start = initial(scene, rows, START_ENERGY)
     dt = step*SAFETY*limits(scene, block(start)).both
@@ -89,17 +89,17 @@ def on_grid(rows: int, ra: float, seed: int, step: float) -> Attempt:
 
 
 def no_report(done: float) -> None:
-    """A search does not know how far it has come."""
+    """Ignore the progress of a run: that of the search is unknown."""
 
 
 @cache
 def reference() -> dict[float, Attempt]:
-    """The fine grid on the rungs up to KNOWN."""
+    """Runs of the fine grid at the Ra of RUNGS up to KNOWN."""
     return {ra: on_grid(FINE, ra, 1, 1.0) for ra in RUNGS if ra <= KNOWN}
 
 
 def should_be(ra: float) -> float:
-    """K of the fine grid, linear between rungs in Ra^(-1/2)    [KHP95, Sec. VI]; nothing beyond KNOWN."""
+    """K of the fine grid, linear between RUNGS in Ra^(-1/2)    [KHP95, Sec. VI]; nan beyond KNOWN."""
     if ra > KNOWN*(1 + 1e-9):
         return np.nan
     x, k = np.array([(rung**-0.5, run.k) for rung, run in reference().items()]).T
@@ -108,7 +108,7 @@ def should_be(ra: float) -> float:
 
 @dataclass(frozen=True, kw_only=True)
 class FineGrid(Case):
-    """What K should be."""
+    """The reference K: runs of the fine grid."""
 
     def run(self, report: Report, folder: Path) -> Outcome:
         rows = [{"ra": ra, "rows": FINE, **run._asdict()} for ra, run in reference().items()]
@@ -116,35 +116,35 @@ class FineGrid(Case):
 
 
 class Search:
-    """Trials (Ra -> run) of attempt(ra), each run once."""
+    """Search for limits of Ra. trials : Ra -> result of attempt(ra), which is called once for each Ra."""
 
     def __init__(self, attempt: Callable[[float], Attempt]):
         self.attempt = attempt
         self.trials: dict[float, Attempt] = {}
 
     def at(self, ra: float) -> Attempt:
-        """The run at a Rayleigh number; nine digits count, so that rungs are met again."""
+        """The run at a Rayleigh number, which is rounded to nine digits so that RUNGS are found again."""
         ra = float(f"{ra:.9g}")
         if ra not in self.trials:
             self.trials[ra] = self.attempt(ra)
         return self.trials[ra]
 
     def ends(self, ra: float) -> bool:
-        """Before its time."""
+        """Whether the run at this Ra ends early."""
         return self.at(ra).reached < 1
 
     def wrong(self, ra: float) -> bool:
-        """Ends, or K is off."""
+        """Whether the run ends early, or its K is off by more than the factor OFF."""
         return self.ends(ra) or abs(log(self.at(ra).k/should_be(ra))) > log(OFF)
 
     def seek(self, bad: Callable[[float], bool], most: float) -> None:
-        """Try rungs up to the first at which a run is bad, and halve the interval."""
+        """Try RUNGS up to the first bad run, and halve the interval below it."""
         ra = next((ra for ra in RUNGS if ra <= most and bad(ra)), None)
         if ra is not None:
             bisected(lambda cell: bad((ROWS*cell)**2), ra**0.5/ROWS)
 
     def limit(self, bad: Callable[[float], bool], most: float) -> dict[str, Any]:
-        """The first bad trial up to `most`, and the last before it: a search may pass over an island."""
+        """Interval between the lowest bad trial up to `most` and the trial below; good ones may lie above."""
         tried = sorted(ra for ra in self.trials if ra <= most)
         first = next((n for n, ra in enumerate(tried) if bad(ra)), None)
         if first is None:
@@ -156,9 +156,9 @@ class Search:
 
 @dataclass(frozen=True, kw_only=True)
 class HighRa(Case):
-    """One method's limits from one start.
+    """Limits of Ra of one method from one start.
 
-    attempt : takes variant, Ra, seed, step. step : over that of other studies.
+    attempt : takes variant, Ra, seed, step and makes a run. step : over that of other studies.
     """
     method: str
     attempt: Callable[..., Attempt]

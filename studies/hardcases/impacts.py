@@ -1,8 +1,8 @@
-"""Hard cases without viscosity in which a gas meets another one, or a body in its stream.
+"""Hard cases without viscosity: two gases that meet, or a stream that meets a body.
 
-Riemann problems: gases meet in the middle of a strip of four units; where it closes one gas goes over into
-the other along a line. What comes from there does not reach the quarter of the strip that is looked at.
-Cells are those of Toro's unit of length.
+Riemann problems: gases meet in the middle of a periodic strip of four units; near its ends one gas changes
+linearly into the other. Waves from there do not reach the quarter of the strip that is compared.
+`cells` : spacings in Toro's unit of length.
 """
 from dataclasses import dataclass
 from typing import Any, ClassVar, NamedTuple
@@ -16,14 +16,14 @@ from studies.build.scenes import Scene, Start
 from studies.hardcases.printed import BELOW, HEAVY, LIGHT, SHIFT, TALL, WIDTH, Impulse, impulse, jittered
 from studies.hardcases.tubes import DENSE, EOS, GAMMA, HEIGHT, NAMES, THIN, wiggles
 
-WINDOW, EVEN, CLOSED = 0.5, 1.8, 2.0        # units from the middle: what is seen, where gases end, the strip
+WINDOW, EVEN, CLOSED = 0.5, 1.8, 2.0        # ends of window, uniform gas, strip: units from the middle
 MACH = 3.0          # of the stream past a disc
 STEEP = 0.25        # k a of the ripple before the shock
-HOT = 0.7           # between the temperatures of the light gas, 1 and more, and the heavy one, 0.5 and less
+HOT = 0.7           # temperature between those of the light gas, 1 or more, and of the heavy gas, 0.5 or less
 
 
 def radii(at: Fields) -> np.ndarray:
-    """(n,) from the middle of the box."""
+    """Distances (n,) from the middle of the box."""
     return np.hypot(*at.x.T)
 
 
@@ -40,15 +40,15 @@ class Frictionless(Scene):
 
 
 def pitot(mach: float, gamma: float) -> float:
-    """Pressure where a supersonic stream stops behind its bow shock, over its own    [Rayleigh 1910]"""
+    """Stagnation pressure behind a bow shock over the pressure of the stream    [Rayleigh 1910]"""
     behind = 2*gamma/(gamma + 1)*mach**2 - (gamma - 1)/(gamma + 1)
     return float(((gamma + 1)/2*mach**2)**(gamma/(gamma - 1))/behind**(1/(gamma - 1)))
 
 
 @dataclass(frozen=True, kw_only=True)
 class Bow(Frictionless):
-    """A disc at rest that is suddenly in a stream of Mach 3, a sixth of the channel wide. The shock has had 5
-    R/c to settle, and no wave has come round the periodic box."""
+    """A disc at rest, suddenly in a stream of Mach 3; its diameter is a sixth of the channel. At the end the
+    shock has settled for 5 R/c, and no wave has come around the periodic box."""
     eos: Any = EOS
     speed: ClassVar[float] = MACH*GAMMA**0.5
     wide: ClassVar[int] = 2
@@ -63,7 +63,7 @@ class Bow(Frictionless):
 
     @property
     def fastest(self) -> float:
-        """|v| + c is largest where c = |v|/5, of a gas that spreads into the wake: v^2 + 5 c^2 stays."""
+        """Largest |v| + c, at c = |v|/5 in gas that expands into the wake: v^2 + 5 c^2 is constant there."""
         return float((1.2*(self.speed**2 + 5*GAMMA))**0.5)
 
     def fields(self, x: np.ndarray) -> Start:
@@ -71,7 +71,7 @@ class Bow(Frictionless):
         return one, np.stack([self.speed*one, 0*one], axis=1), one
 
     def seen(self, first: Fields, at: Fields) -> dict[str, float]:
-        """Pressure at the foremost points of the disc."""
+        """Pressure at the foremost points of the disc over the exact stagnation pressure."""
         edge = np.flatnonzero(np.isclose(radii(at), self.disc))
         front = edge[np.isclose(at.x[edge, 0], at.x[edge, 0].min())]
         return {"measured": float((at.rho*at.T)[front].mean()/pitot(MACH, GAMMA))}
@@ -79,8 +79,8 @@ class Bow(Frictionless):
 
 @dataclass(frozen=True, kw_only=True)
 class Ripple(Frictionless):
-    """The rippled interface of KHP95's Fig. 11 and its mirror image, L rows in all: gases fall onto y = 0, a
-    shock of Mach 1.5 comes back; cells that the interface cuts have their share of both."""
+    """The rippled interface of KHP95's Fig. 11 and its mirror image, L rows in all: gases fall onto y = 0,
+    from where a shock of Mach 1.5 comes back. Cells that the interface cuts hold a share of both gases."""
     eos: Any = IdealGas()  # noqa: RUF009 (immutable)
 
     @property
@@ -97,12 +97,12 @@ class Ripple(Frictionless):
 
     @property
     def time(self) -> float:
-        """The reflected shock is at the mirror."""
+        """Time at which the reflected shock reaches the mirror."""
         return self.theory.back
 
     @property
     def fastest(self) -> float:
-        """|v| + c of the light gas that falls, and more than that of all that is shocked."""
+        """|v| + c of the falling light gas, which is more than in shocked gas."""
         return float(self.theory.fall + (2*LIGHT.P/LIGHT.rho)**0.5)
 
     def fields(self, x: np.ndarray) -> Start:
@@ -113,7 +113,7 @@ class Ripple(Frictionless):
         return rho, np.stack([0*rho, -self.theory.fall*np.sign(x[:, 1])], axis=1), LIGHT.P/rho
 
     def seen(self, first: Fields, at: Fields) -> dict[str, float]:
-        """How much the ripple has grown since the shock came, of columns of a lattice; theory's at L rows."""
+        """Growth of the ripple since the shock over that of theory, from the columns of a lattice."""
         order = np.lexsort((at.x[:, 1], at.x[:, 0]))
         x, y, T = (q[order].reshape(self.width, self.L)[:, self.L//2:] for q in (*at.x.T, at.T))
         last, column = (T > HOT).cumsum(axis=1).argmax(axis=1), np.arange(self.width)
@@ -127,20 +127,20 @@ class Ripple(Frictionless):
 # --- Riemann problems ---------------------------------------------------------------------------------------
 
 class Problem(NamedTuple):
-    """Both gases, and when they are looked at; waves have then gone half a unit at most."""
+    """Both gases, and the time at the end, when waves have gone half a unit at most."""
     left: GasState
     right: GasState
     time: float
 
 
 def collision(mach: float) -> Problem:
-    """Gases that meet and come to rest behind shocks of a Mach number, which are then 0.25 units away."""
+    """Gases that collide and rest behind shocks of a Mach number, until these are 0.25 units away."""
     c = GAMMA**0.5
     v = 2*c/(GAMMA + 1)*(mach - 1/mach)
     return Problem(GasState(1.0, v, 1.0), GasState(1.0, -v, 1.0), 0.25/(mach*c - v))
 
 
-#: Toro's have two digits of their time; a vacuum of a millionth
+#: Toro's problems, their times with two digits; a near vacuum of density 1e-6
 PROBLEMS = {
     "Sod": Problem(DENSE, THIN, 0.2),
     "Toro 1": Problem(GasState(1.0, 0.75, 1.0), GasState(0.125, 0.0, 0.1), 0.2),
@@ -156,7 +156,7 @@ PROBLEMS = {
 
 @dataclass(frozen=True, kw_only=True)
 class Strip(Scene):
-    """A problem in a strip of four units, the gases meet at x = 0; densities over that of the left gas."""
+    """A Riemann problem in a strip of four units; gases meet at x = 0; densities are over the left gas's."""
     problem: Problem
     cells: int
     eos: object = EOS
@@ -175,14 +175,14 @@ class Strip(Scene):
 
     @property
     def fastest(self) -> float:
-        """Speed and sound's of the gas, and of what is between the waves."""
+        """Largest |v| + c of both gases and of the states between the waves."""
         left, right, _ = self.problem
         v, P, *densities = middle(left, right, GAMMA)
         states = (left, right, *(GasState(rho, v, P) for rho in densities))
         return max(abs(gas.v) + (GAMMA*gas.P/gas.rho)**0.5 for gas in states)
 
     def gases(self, x: np.ndarray) -> np.ndarray:
-        """rho, v, P (3, n)."""
+        """rho, v, P (3, n) at the start."""
         left, right = (np.array(gas)[:, None] for gas in self.problem[:2])
         over = np.clip((np.abs(x)/self.cells - EVEN)/(CLOSED - EVEN), 0, 1)/2
         own, other = np.where(x < 0, left, right), np.where(x < 0, right, left)
@@ -193,7 +193,7 @@ class Strip(Scene):
         return rho, np.stack([v, 0*v], axis=1), P/rho
 
     def of_one_mass(self, seed: int) -> tuple[np.ndarray, Start]:
-        """Columns and rows as far apart in each gas as its density wants them, of which one may have none."""
+        """Places of particles of one mass, in columns and rows by the density of each gas, and fields."""
         rng, parts = np.random.default_rng(seed), []
         for gas, left in ((self.problem.left, -CLOSED), (self.problem.right, 0.0)):
             number = 2*self.cells*HEIGHT*gas.rho/self.problem.left.rho
@@ -205,8 +205,8 @@ class Strip(Scene):
         return x, self.fields(x)
 
     def seen(self, first: Fields, at: Fields) -> dict[str, float]:
-        """The farthest of mean differences of density, velocity and pressure, over their ranges, in spacings;
-        these three; variation of v; how far what is between the waves is off."""
+        """Mean errors of density, velocity, pressure over their ranges; `measured`: the largest, in spacings;
+        variation of v beyond the exact one; largest error of the states between the waves."""
         left, right, time = self.problem
         here = np.abs(at.x[:, 0]) < WINDOW*self.cells
         x, V = at.x[here, 0], at.V[here]

@@ -1,14 +1,14 @@
 """Smooth particles in the squares of KHP95's Fig. 10, in the shocked interface of Fig. 11, in Sod's tube.
 
-Squares: rolls and pairs of 2500 particles, temperatures 10 and 0.5. Printed is Ra 350 000 for eta = k = 0.8
-(ideal gas) and 0.4 (dense fluid). The gas has that if alpha is taken as 1, and 67 150 with its own alpha =
-1/<T>; the dense fluid has 340 800 with its own, and 511 200 as scenes reckon, whose kappa is k/(rho C_V).
+Squares: rolls and pairs of 2500 particles between temperatures 10 and 0.5. KHP95 print Ra 350 000 for eta =
+k = 0.8 (ideal gas) and 0.4 (dense fluid). The gas has this Ra with alpha = 1, and 67 150 with its own alpha =
+1/<T>; the dense fluid has 340 800 with its own alpha, and 511 200 with the scenes' kappa = k/(rho C_V).
 
-Interface: does its ripple grow as theory says? Printed are the width, 30, the height, 100, and a density
-ratio of 4 of two ideal gases; not printed are strength of the shock, amplitude and direction, nor the walls:
-here a shock of Mach 1.5 comes through the light gas, the ripple has one wavelength and k a = 0.25 or 0.75,
-1.2 or 3.6 spacings. Both gases fall with the speed of the piston onto a resting mirror, which is where the
-shock begins; above is vacuum.
+Interface: does its ripple grow as theory predicts? KHP95 print the width, 30, the height, 100, and a density
+ratio of 4 of two ideal gases, but not the strength of the shock, its direction, the amplitude or the walls.
+Here a shock of Mach 1.5 comes through the light gas; the ripple has one wavelength and k a = 0.25 or 0.75,
+1.2 or 3.6 spacings. Both gases fall with the speed of the piston onto a mirror at rest, where the shock
+begins; above them is vacuum.
 """
 from dataclasses import dataclass
 from math import pi, sqrt
@@ -38,7 +38,7 @@ from studies.kit.case import Case, Outcome, Report
 
 def jittered(counts: tuple[int, int], cell: tuple[float, float], corner: tuple[float, float], jitter: float,
              rng: np.random.Generator) -> np.ndarray:
-    """x, y (2, n) in the middle of columns and rows of cells, shifted by up to `jitter` of a cell."""
+    """Places x, y (2, n) in the middle of cells, shifted by up to `jitter` of one. counts : columns, rows."""
     row, column = np.divmod(np.arange(counts[0]*counts[1]), counts[0])
     shift = rng.uniform(-1, 1, (2, len(row)))
     size, low = np.array(cell)[:, None], np.array(corner)[:, None]
@@ -48,11 +48,11 @@ def jittered(counts: tuple[int, int], cell: tuple[float, float], corner: tuple[f
 # --- squares ------------------------------------------------------------------------------------------------
 
 SIDE = 50.0
-SHARED = 0.5            # spacings within which a neighbour is a partner
+SHARED = 0.5            # distance in spacings within which a neighbour is the partner of a pair
 
 
 def two_rolls(scene: RayleighBenard, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """(rho, v, T) of conduction and two rolls, as energetic over free fall squared as in Sec. VI."""
+    """(rho, v, T) of conduction with two rolls, whose K over free-fall velocity squared is as in Sec. VI."""
     y = np.clip(x[:, 1], -scene.L/2, scene.L/2)
     v = scene.flow(x[:, 0], y, START_ENERGY*scene.free_fall**2, rolls=2)
     return np.ones(len(x)), np.stack(v, axis=1), scene.T(y)
@@ -60,7 +60,7 @@ def two_rolls(scene: RayleighBenard, x: np.ndarray) -> tuple[np.ndarray, np.ndar
 
 @dataclass(frozen=True, kw_only=True)
 class Square(Case):
-    """One run. t_end, mean_from : in free-fall times."""
+    """One run in a square. t_end, mean_from : in free-fall times."""
     weight: Any
     ra: float
     t_end: float
@@ -98,16 +98,16 @@ class Square(Case):
 
 GAMMA, MACH = 2.0, 1.5
 LIGHT, HEAVY = GasState(0.4, 0.0, 0.4), GasState(1.6, 0.0, 0.4)     # mean density about 1, light gas at T = 1
-WIDTH, TALL, BELOW = 30.0, 100.0, 60.0                    # of them the lowest 60 are light
-JITTER = 0.2        # of rows and columns
-STRIPS = 16         # in which the interface is looked for
+WIDTH, TALL, BELOW = 30.0, 100.0, 60.0                    # the lowest 60 are light gas
+JITTER = 0.2        # largest shift of a particle over its cell
+STRIPS = 16         # columns in which the height of the interface is found
 SAMPLES = 60
 
 
 class Impulse(NamedTuple):
-    """What theory says: speed of the falling gas, time at which the shock meets the interface, velocity that
-    this gives to it, time at which the reflected shock comes to the mirror, amplitude behind the shock and
-    its growth rate.
+    """Exact and impulsive theory: speed of the falling gas, time at which the shock meets the interface,
+    velocity that it gives the interface, time at which the reflected shock reaches the mirror, amplitude
+    behind the shock, growth rate of the amplitude.
     """
     fall: float
     meets: float
@@ -118,9 +118,9 @@ class Impulse(NamedTuple):
 
 
 def impulse(scale: float, steep: float) -> Impulse:
-    """da/dt = k a+ A+ dv with a+ = a (1 - dv/W), k a = steep    [Richtmyer 1960]
+    """Theory of the ripple, da/dt = k a+ A+ dv with a+ = a (1 - dv/W), k a = steep    [Richtmyer 1960]
 
-    + is behind the shock of speed W, dv the velocity of the interface.
+    + : behind the shock, whose speed is W. dv : velocity that the interface gains. A : Atwood number.
     """
     c = sqrt(GAMMA*LIGHT.P/LIGHT.rho)
     fall, W = 2*c/(GAMMA + 1)*(MACH - 1/MACH), MACH*c
@@ -157,7 +157,7 @@ def gases(scale: float, steep: float, seed: int) -> tuple[np.ndarray, np.ndarray
 
 
 def ripple(x: np.ndarray, y: np.ndarray, light: np.ndarray, width: float) -> tuple[float, float]:
-    """Mean height and amplitude of the interface, from the best division of each strip."""
+    """Mean height and amplitude of the interface, from the height that best divides each strip."""
     strip = np.floor((x/width + 0.5)*STRIPS).astype(int) % STRIPS
     at = np.array([divide(y[strip == i], light[strip == i]) for i in range(STRIPS)])
     middles = (np.arange(STRIPS) + 0.5)/STRIPS - 0.5
@@ -165,7 +165,7 @@ def ripple(x: np.ndarray, y: np.ndarray, light: np.ndarray, width: float) -> tup
 
 
 def divide(y: np.ndarray, light: np.ndarray) -> float:
-    """The height with the fewest particles on the wrong side; of several their mean."""
+    """The height with the fewest particles on the wrong side; the mean of several such heights."""
     order = np.argsort(y)
     heights, below = y[order], light[order]
     wrong = (np.cumsum(~below) + light.sum() - np.cumsum(below))[:-1]
@@ -175,7 +175,7 @@ def divide(y: np.ndarray, light: np.ndarray) -> float:
 
 @dataclass(frozen=True, kw_only=True)
 class Interface(Case):
-    """One run of both gases. scale : all lengths over the printed ones. steep : k a before the shock."""
+    """One run of the interface. scale : all lengths over the printed ones. steep : k a before the shock."""
     scale: float
     steep: float = 0.25
     seed: int = 1
@@ -185,7 +185,7 @@ class Interface(Case):
         return 2*self.scale**3
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        """Until the reflected shock is at the mirror, when nothing can be back at the interface."""
+        """Run until the reflected shock reaches the mirror: no wave has then come back to the interface."""
         width, height = box = WIDTH*self.scale, TALL*self.scale
         floor = Mirror(1, -height/2, 1.0, 1.0, 0.0, Odd(), Copied())      # above is vacuum
         method = Spam(weight=Lucy.of(h=3.0), eos=IdealGas(), law=FRICTIONLESS, box=box,
@@ -209,14 +209,14 @@ class Interface(Case):
 
 # --- Sod's tube ---------------------------------------------------------------------------------------------
 
-MASS = 9/16                     # the mean density is one a unit of area
-ROWS = {DENSE: 12, THIN: 4}     # then columns are 0.75 and 2 apart, and fit if L is a multiple of 3
-SHIFT = 0.05                    # of the columns and rows: a perfect lattice keeps its rows in such a flow
+MASS = 9/16                     # of a particle: there is one per unit of area on average
+ROWS = {DENSE: 12, THIN: 4}     # columns are then 0.75 and 2 apart, and fit if L is a multiple of 3
+SHIFT = 0.05                    # largest shift over the cell: a perfect lattice keeps its rows in such a flow
 SKIN = 1.5                      # of neighbour lists: at the diaphragm particles reach full speed in a step
 
 
 def in_tubes(weight: Any, scene: Tubes, seed: int) -> Ready:
-    """Smooth particles with a class of weights in Sod's tubes, a step that divides the time."""
+    """Smooth particles in Sod's tubes, with a step that divides the time. weight : a class of weights."""
     start = tube(scene.half, seed)
     method = fluid(weight.of(h=3.0), (scene.width, HEIGHT), EOS, scene.law, m=MASS, skin=SKIN)
     steps = round(scene.time/(STUDIES*step_limit(method, start[4]))) + 1
@@ -224,7 +224,7 @@ def in_tubes(weight: Any, scene: Tubes, seed: int) -> Ready:
 
 
 def tube(L: float, seed: int) -> np.ndarray:
-    """State (5, n) at the start."""
+    """State (5, n) of both tubes at the start. L : half of the length of a tube."""
     rng, gases = np.random.default_rng(seed), []
     for gas, left in ((DENSE, -L), (THIN, L)):
         counts = round(2*L*HEIGHT*gas.rho/MASS/ROWS[gas]), ROWS[gas]
@@ -236,7 +236,7 @@ def tube(L: float, seed: int) -> np.ndarray:
 
 
 def smoothed(scene: Tubes, method: Spam, state: np.ndarray) -> np.ndarray:
-    """(3, n): smoothed rho, v, P of a tube and its image, means over the height and over both."""
+    """Smoothed rho, v, P (3, n), means over the height and over the tube and its mirror image."""
     sums, state, _ = method.look(state)
     x = centres(scene.half)
     y, both = np.arange(HEIGHT) + 0.5 - HEIGHT/2, []

@@ -1,6 +1,6 @@
-"""A hard case: one method in one scene until it comes to its end, diverges, or refuses.
+"""A hard case: one method in one scene until the run reaches its end or diverges, or the method refuses.
 
-A new case is a scene, a time and a `Question`, a new method in it one `Hard` more.
+A new case needs a scene, a time and a `Question`; each method in it is one `Hard`.
 """
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -36,16 +36,16 @@ Watch = tuple[tuple[str, Quantity], ...]
 
 
 class Course(NamedTuple):
-    """What was seen at the start and after each sample; part of the time reached; what was watched at each
-    sample, of a run that has come to its end."""
+    """Record of a run. seen : what `look` gave at the start and each sample. reached : part of the time.
+    watched : quantities at each sample, if the run reached its end."""
     seen: list
     reached: float = 1.0
     watched: Mapping[str, list[float]] = MappingProxyType({})
 
 
 class Question(NamedTuple):
-    """look(scene, method, state) at the start and after each sample; answer(scene, course) gives columns;
-    quantities to watch take sums and state."""
+    """What is recorded and what follows: look(scene, method, state) is called at the start and after each
+    sample, answer(scene, course) gives the columns. watch : quantities, which take sums and state."""
     look: Callable
     answer: Callable[[Any, Course], Row]
     samples: int = SAMPLES
@@ -54,7 +54,7 @@ class Question(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class Hard(Case):
-    """A row of the table `into`. which : the columns that say which run it is.
+    """A run that gives one row of the table `into`. which : the key columns of the row.
 
     entrant : has ready(scene, seed). step : over that of the entrant. time : in the units of the scene.
     """
@@ -69,7 +69,7 @@ class Hard(Case):
 
     @property
     def cost(self) -> float:
-        """About two steps in a unit of time, a few tenths of a microsecond each."""
+        """Seconds, with about two steps in a unit of time, half a microsecond each for a point."""
         return 1 + 1e-6*self.scene.width*self.scene.L*self.time/self.step
 
     @property
@@ -86,7 +86,7 @@ class Hard(Case):
         return self.found(course)
 
     def course(self, ready: Ready, report: Report) -> Course:
-        """The run."""
+        """Make the run and record it."""
         look, _, samples, watch = self.question
         return followed(ready, self.time, samples, partial(look, self.scene), report, watch)
 
@@ -101,8 +101,8 @@ class Hard(Case):
 
 def followed(ready: Ready, time: float, samples: int, look: Callable, report: Report | None = None,
              watch: Watch = ()) -> Course:
-    """Any method; look(method, state) is what is seen."""
-    method, start = ready.method, ready.start.reshape(len(ready.start), -1)      # of a grid's block
+    """Run any method; look(method, state) is recorded at the start and after each sample."""
+    method, start = ready.method, ready.start.reshape(len(ready.start), -1)      # flat, if a block of a grid
     seen = [look(method, start)]
 
     def see(sums: Any, state: np.ndarray) -> float:
@@ -120,7 +120,7 @@ def followed(ready: Ready, time: float, samples: int, look: Callable, report: Re
 
 def between_plates(start: NodeFields, time: float, report: Report,
                    dt: float | None = None) -> tuple[Solution | None, float]:
-    """The compressible grid from a start, None if it diverged; the part of the time reached."""
+    """Run the compressible grid: its solution, None if it diverged, and the part of the time reached."""
     reached, rows = [0.0], len(start.y) - 1
 
     def progress(done: float) -> None:
@@ -133,11 +133,11 @@ def between_plates(start: NodeFields, time: float, report: Report,
     return done, 1.0
 
 
-# --- who takes part -----------------------------------------------------------------------------------------
+# --- how methods are set up ---------------------------------------------------------------------------------
 
 @dataclass(frozen=True)
 class Of:
-    """A scene that has all of another one but what it says itself."""
+    """A scene with the attributes of another scene, except those that it defines itself."""
     scene: Any
 
     def __getattr__(self, name: str) -> Any:
@@ -145,12 +145,12 @@ class Of:
 
 
 class Open(Of):
-    """Without its plates: periodic along both axes."""
+    """A scene without its plates: periodic along both axes."""
     sides: ClassVar[Torus] = Torus()
 
 
 class Swift(Of):
-    """At rest, so hot that sound is as fast as what the scene will have."""
+    """A scene at rest, so hot that its sound is as fast as the largest |v| + c in the scene's run."""
 
     @property
     def T_hot(self) -> float:
@@ -162,61 +162,61 @@ class Swift(Of):
 
 
 class By(NamedTuple):
-    """A method that is set up in a way of its own: way(variant, scene, seed) -> Ready."""
+    """A method with its own way to be set up: way(variant, scene, seed) -> Ready."""
     way: Callable[..., Ready]
     variant: Any
 
     def ready(self, scene: Any, seed: int = 1) -> Ready:
-        """In a scene."""
+        """The method set up in a scene."""
         return self.way(self.variant, scene, seed)
 
 
 def smooth(variant: Variant, scene: Any, seed: int) -> Ready:
-    """Smooth particles in one set of places for all seeds, away from where plates would be, none where the
-    gas is thin; their step is chosen at the start."""
+    """Set up smooth particles at the same places for all seeds, away from plates, none where the gas is thin.
+    The step is chosen at the start."""
     x = positions(scene.width, scene.L, START_JITTER, 1)
     ready = variant.ready(scene, x=x[scene.fields(x)[0] > THIN])
     return ready._replace(dt=variant.step*ready.limit)
 
 
 def without_plates(variant: Any, scene: Any, seed: int) -> Ready:
-    """In a scene without its plates."""
+    """Set a method up in a scene without its plates."""
     return variant.ready(Open(scene))   # type: ignore[no-any-return]
 
 
 def tiled(form: GridForm, scene: Any, seed: int) -> Ready:
-    """The compressible grid without plates, and so without gravity."""
+    """Set up the compressible grid without plates, and therefore without gravity."""
     box = Tile(width=scene.width, L=scene.L, eos=scene.eos, law=scene.law)
     start = placed(box, round(scene.L), partial(started, scene))
     return form.ready(box, first=block(start))
 
 
 def at_limit(variant: Any, scene: Any, seed: int) -> Ready:
-    """The step is the longest at the start."""
+    """Set a method up with the longest step that is stable at the start."""
     made = variant.ready(scene, seed)
     return made._replace(dt=made.limit)     # type: ignore[no-any-return]
 
 
 def hurried(variant: Any, scene: Any, seed: int, **places: Any) -> Ready:
-    """The step is the usual one of the fastest flow to come, if that is shorter."""
+    """Set a method up with its usual step, or with that for the fastest flow to come, if shorter."""
     made, swift = (variant.ready(one, seed, **places) for one in (scene, Swift(scene)))
     return made._replace(dt=min(made.dt, swift.dt))     # type: ignore[no-any-return]
 
 
 def of_one_mass(variant: Variant, scene: Any, seed: int) -> Ready:
-    """The same of smooth particles of one mass, which lie as densely as the scene wants it."""
+    """As `hurried`, for smooth particles of one mass, which are placed by the density of the scene."""
     x, _ = places_of_one_mass(scene, seed)
     return hurried(variant, scene, seed, x=x)
 
 
-# --- what is seen -------------------------------------------------------------------------------------------
+# --- what is recorded ---------------------------------------------------------------------------------------
 
 def fate(course: Course) -> Row:
-    """How far a method came that did not refuse."""
+    """The part of the time that a method reached, which did not refuse."""
     return {"reached": course.reached, "refused": ""}
 
 
 def copied(scene: Any, method: Any, state: np.ndarray) -> Fields:
-    """All fields."""
+    """Copies of all fields of a method."""
     at: Fields = method.fields(state)
     return at._make(map(np.copy, at))   # type: ignore[call-arg, arg-type]

@@ -1,19 +1,19 @@
 """Sod's shock tube by the grid, by points, and by smooth particles as printed; none has artificial viscosity.
 
-Density 1 and pressure 1 against 0.125 and 0.1, gamma = 1.4 [Sod 1978]. At the time 0.4 L, L being half of the
-tube, the shock is at 0.70 L from the diaphragm. A viscous gas is followed on a fine grid besides:
+Density 1 and pressure 1 against 0.125 and 0.1, gamma = 1.4 [Sod 1978]. At the time 0.4 L, with L half of the
+tube, the shock is at 0.70 L from the diaphragm. The viscous gas is also solved on a fine grid:
 one-dimensional Navier-Stokes-Fourier in flux form, between mirrors.
 
-A periodic strip holds the tube and its mirror image: dense at |x| < L, thin at L < |x| < 2 L, without walls;
-the grid has one tube between plates, which its waves do not reach. Points and cells have one spacing in both
-gases: thin ones have less mass. Smooth particles have one mass, so the thin gas has eight times fewer, and
-one range, 3 mean spacings    [KHP95, Sec. II].
+A periodic strip holds the tube and its mirror image: dense at |x| < L, thin at L < |x| < 2 L, without walls.
+The grid has one tube between plates, which its waves do not reach. Points and cells have one spacing in both
+gases and less mass in the thin one. Smooth particles have one mass, so that the thin gas has eight times
+fewer, and one range, 3 mean spacings    [KHP95, Sec. II].
 
-Viscosities in units of spacing and density 1, eta = k, chosen beforehand and for all methods alike: nothing;
-what makes the contact's velocity a cell number of 2 behind the shock, v a/nu, beyond which central
-differences are expected to ring; and the one that smooth particles were given. nu/(c a) of the dense gas is
-0, 0.11 and 0.42. Steps are half of the limit at the start, since v + c behind the shock is 1.85 times c of
-the dense gas; a quarter of this step tells the scheme's end from the step's.
+Viscosities eta = k, in units of spacing and density 1, were chosen beforehand, alike for all methods: zero;
+the one with which the contact's velocity behind the shock has cell number v a/nu = 2, beyond which central
+differences are expected to ring; and that of smooth particles, 0.5. nu/(c a) of the dense gas is 0, 0.11 and
+0.42. Steps are half of the limit at the start, since v + c behind the shock is 1.85 times c of the dense gas.
+Runs with a quarter of this step show whether a run ends by its step or by its scheme.
 """
 from dataclasses import dataclass
 from functools import cache
@@ -37,11 +37,11 @@ from studies.kit.case import Outcome, Report
 EOS, GAMMA = IdealGas(cv=2.5), 1.4
 DENSE, THIN = GasState(1.0, 0.0, 1.0), GasState(0.125, 0.0, 0.1)
 END = 0.4                       # time over L
-FINE = 0.25                     # cells of the fine grid, spacings
-ACCURATE = 1e-6                 # relative, of its steps in time: a thousandth of the errors compared
+FINE = 0.25                     # size of cells of the fine grid, in spacings
+ACCURATE = 1e-6                 # relative tolerance of its time steps: a thousandth of the errors compared
 NAMES = ("rho", "v", "P")
 HEIGHT = 9.0
-PARTS = 16              # of a point, over which it is spread when it is put into cells
+PARTS = 16              # parts into which a point is split when it is put into cells
 BETWEEN = middle(DENSE, THIN, GAMMA)
 CELL_NUMBER = 2.0
 BARELY = round(BETWEEN.v*BETWEEN.right/CELL_NUMBER, 3)      # 0.123
@@ -50,22 +50,22 @@ STEPS = (0.5, 0.125)                        # over the limit at the start
 assert END*BETWEEN.v < 1        # the contact stays in its half of the tube
 
 
-# --- what should be -----------------------------------------------------------------------------------------
+# --- references ---------------------------------------------------------------------------------------------
 
 
 def exact(L: float, x: np.ndarray) -> np.ndarray:
-    """(3, n): rho, v, P of the frictionless gas at the end, 0 < x < 2 L."""
+    """Exact rho, v, P (3, n) of the frictionless gas at the end, 0 < x < 2 L."""
     return solution(DENSE, THIN, GAMMA, (x - L)/(END*L))
 
 
 def start(dense: np.ndarray) -> np.ndarray:
-    """rho, v, P (3, n), dense gas in some cells."""
+    """rho, v, P (3, n) at the start. dense : whether a cell holds dense gas."""
     return np.where(dense, np.array(DENSE)[:, None], np.array(THIN)[:, None])
 
 
 @cache
 def viscous(L: int, eta: float) -> np.ndarray:
-    """(3, 2 L): the same of a viscous gas in cells of one spacing, by the fine grid; none at eta = 0."""
+    """rho, v, P (3, 2 L) of a viscous gas in cells of one spacing, by the fine grid; nan at eta = 0."""
     if not eta:
         return np.full((3, 2*L), np.nan)
     cells = (np.arange(round(2*L/FINE)) + 0.5)*FINE
@@ -74,7 +74,7 @@ def viscous(L: int, eta: float) -> np.ndarray:
 
 
 def march(start: np.ndarray, eta: float, time: float) -> np.ndarray:
-    """rho, v, P (3, n) of fine cells after a time."""
+    """rho, v, P (3, n) in the cells of the fine grid after a time."""
     rho, v, P = start
     U = np.array([rho, rho*v, EOS.cv*P + rho*v**2/2])
     done = solve_ivp(lambda t, U: rates(U.reshape(3, -1), eta).ravel(), (0, time), U.ravel(),
@@ -91,7 +91,7 @@ def primitive(U: np.ndarray) -> np.ndarray:
 
 
 def rates(U: np.ndarray, eta: float) -> np.ndarray:
-    """dU/dt from fluxes on faces; behind both ends is a mirror image. In 2D friction is eta dv/dx."""
+    """dU/dt from fluxes on faces, with mirror images behind both ends; friction is eta dv/dx as in 2D."""
     rho, v, e = np.pad(primitive(U), ((0, 0), (1, 1)), "edge")
     v[[0, -1]] *= -1
     T = e/EOS.cv
@@ -103,7 +103,7 @@ def rates(U: np.ndarray, eta: float) -> np.ndarray:
 
 
 def wiggles(v: np.ndarray, truth: np.ndarray) -> float:
-    """Variation of a velocity beyond that of the exact one, over it."""
+    """Total variation of a velocity over that of the exact one, less 1."""
     variation, expected = np.abs(np.diff([v, truth])).sum(axis=1)
     return float(variation/expected - 1)
 
@@ -112,7 +112,7 @@ def wiggles(v: np.ndarray, truth: np.ndarray) -> float:
 
 @dataclass(frozen=True, kw_only=True)
 class Tubes(Scene):
-    """Both tubes. half : the length of one."""
+    """The tube and its mirror image. half : half of the length of one."""
     half: int
     law: ConstEta
     eos: Any = EOS
@@ -132,10 +132,10 @@ class Tubes(Scene):
 
 
 def binned(scene: Tubes, method: Any, state: np.ndarray) -> np.ndarray:
-    """rho, v, P (3, 2 L) in cells, of points by volume; means over the height and both tubes.
+    """rho, v, P (3, 2 L) in cells from points, weighted by volume; means over the height and both tubes.
 
-    A point is as wide as its volume and one spacing high: where the gas is thin rows of points lie farther
-    apart than cells.
+    A point is spread over a width equal to its volume, with a height of one spacing: in thin gas points lie
+    farther apart than cells.
     """
     at, cells = method.fields(state), 2*scene.half
     offsets = (np.arange(PARTS) + 0.5)/PARTS - 0.5
@@ -150,7 +150,7 @@ def binned(scene: Tubes, method: Any, state: np.ndarray) -> np.ndarray:
 
 @dataclass(frozen=True, kw_only=True)
 class Upright(Slab):
-    """One tube without gravity, |y| < L/2, dense below; plates are as warm as the gas at them."""
+    """One tube without gravity, |y| < L/2, dense below; plates have the temperature of the gas at them."""
     eos: Any = EOS
     T_hot: float = DENSE.P/DENSE.rho
     T_cold: float = THIN.P/THIN.rho
@@ -166,7 +166,7 @@ class Upright(Slab):
 
 
 def cells(form: GridForm, scene: Tubes, seed: int) -> Ready:
-    """The compressible grid in one of the tubes, cells of one spacing, its longest step at the start."""
+    """Set up the compressible grid in one tube, with cells of one spacing and the longest stable step."""
     rows, eta = 2*scene.half, scene.law.eta
     one = Upright(L=float(rows), aspect=2/scene.half, viscosity=eta, heat=eta)
     made = form.ready(one, first=block(placed(one, rows, one.begin)))
@@ -182,12 +182,12 @@ def in_cells(scene: Tubes, method: Any, state: np.ndarray) -> np.ndarray:
 
 
 def centres(L: int) -> np.ndarray:
-    """(2 L,) of cells of one spacing."""
+    """Centres (2 L,) of cells of one spacing."""
     return np.arange(2*L) + 0.5
 
 
 def sods_row(scene: Tubes, course: Course) -> Row:
-    """Mean differences from the exact gas and from the fine grid, over their ranges; how much v rings."""
+    """Columns of a tube: mean errors against the exact gas and the fine grid over ranges; ringing of v."""
     row = {"reached": course.reached}
     if course.reached < 1:
         return row
@@ -199,11 +199,11 @@ def sods_row(scene: Tubes, course: Course) -> Row:
 
 
 class Tube(Hard):
-    """A tube that is looked at when it has come to its end, and never before."""
+    """A tube that is recorded at its end only."""
 
     def course(self, ready: Ready, report: Report) -> Course:
         method, start, dt = ready
-        steps = ceil(self.time/dt - 1e-9)       # of a step that divides the time
+        steps = ceil(self.time/dt - 1e-9)       # the step divides the time
         plan = Plan(dt=self.time/steps, steps=steps)
         try:
             done = run(method, start.reshape(len(start), -1), plan, report)
@@ -213,7 +213,7 @@ class Tube(Hard):
 
 
 class Profiled(Tube):
-    """Whose profile goes to a table, too."""
+    """A tube whose profile is stored in a table, too."""
 
     def found(self, course: Course) -> Outcome:
         L, (row,) = self.scene.half, super().found(course).rows.values()

@@ -1,4 +1,4 @@
-"""Which cases, by size, and the tables that they fill. Lengths in spacings, masses of particles, T = 1."""
+"""Cases of the study, by size, and the tables that they fill. Units: spacing, mass of a particle, T = 1."""
 from collections.abc import Iterator
 from dataclasses import replace
 from itertools import product
@@ -22,7 +22,7 @@ SQUARE = replace(HEXAGONAL, lattice=LATTICES["square"], cells=(15, 15))
 #: a van der Waals fluid on a hexagonal lattice that an ideal gas would keep
 COLD = replace(HEXAGONAL, h=2.5, eos=VanDerWaals())
 COLD_STATES = ((0.1, 1.0), (0.15, 1.0), (0.2, 1.0), (0.15, 1.2), (0.2, 1.2))     # T, rho
-COLD_WEIGHTS = ((Lucy, 2.5), (WendlandC2, 2.5), (WendlandC4, 3.0))      # and h
+COLD_WEIGHTS = ((Lucy, 2.5), (WendlandC2, 2.5), (WendlandC4, 3.0))      # weight, h
 #: (crystal, weight, stable range, unstable range)
 UNSTABLE_RANGES = (
     (HEXAGONAL, Monaghan, 2.2, 2.6),
@@ -32,20 +32,20 @@ UNSTABLE_RANGES = (
 )
 SEEDS = (1, 2, 3)
 PRESSURES = ("less-static-90", "less-static-50", "more-static-100", "more-static-400")
-#: whose laws of the stress differ from that of the printed scheme
+#: variants whose laws of the stress differ from that of the printed scheme
 OTHERS = ("printed-monaghan", "wendland-c2", "wendland-c4", "wendland-c6", "direct", "range-4")
 WALLS = ("printed", "walls-odd", "printed-fixed-rows")
 RAYLEIGH = (2500.0, 3000.0, 3500.0, 5000.0, 10_000.0, 20_000.0, 50_000.0)
 
 
 def cases(size: str) -> list[Case]:
-    """All of them; `quick` is for trying the path out."""
+    """All cases of a size; `quick` only tries out that everything runs."""
     chosen = quick if size == "quick" else paper
     return list(chosen())
 
 
 def quick() -> Iterator[Case]:
-    """A few of each kind."""
+    """A few cases of each kind."""
     yield from (*list(growth())[::5], *list(onsets())[::9], *speeds(), *spectra())
     for U, variant in product((0.05, 0.1, 0.2), ("printed", "less-static-50")):
         yield Stirred(variant=VARIANTS[variant], rows=25, U=U, time=3.0)
@@ -54,13 +54,13 @@ def quick() -> Iterator[Case]:
 
 
 def paper() -> Iterator[Case]:
-    """All seeds."""
+    """All cases with all seeds."""
     yield from (*growth(), *onsets(), *freezing(), *speeds(), *spectra())
     yield from (*stirred(), *aligned(), *ranges(), *(Thickened(ra=ra) for ra in RAYLEIGH), *makers())
 
 
 def growth() -> Iterator[Case]:
-    """The lattices that runs begin and freeze on; pairs; fluids under negative pressure."""
+    """Growth on the lattices where runs begin and freeze, of pairs, and in fluids under negative pressure."""
     for crystal, weight in product((HEXAGONAL, SQUARE), WEIGHTS):
         yield LatticeGrowth(crystal=replace(crystal, weight=weight))
     for h in (2.6, 2.8):
@@ -70,7 +70,7 @@ def growth() -> Iterator[Case]:
 
 
 def onsets() -> Iterator[Case]:
-    """In the range of the weight, and in the temperature of van der Waals fluids."""
+    """Onsets of growth in the range of the weight, and in the temperature of van der Waals fluids."""
     for crystal, weight, stable, unstable in UNSTABLE_RANGES:
         yield Onset(crystal=replace(crystal, weight=weight), parameter="h", stable=stable, unstable=unstable)
     for (kind, h), rho in product(COLD_WEIGHTS, (1.0, 1.2)):
@@ -79,26 +79,26 @@ def onsets() -> Iterator[Case]:
 
 
 def freezing() -> Iterator[Case]:
-    """The gas of Fig. 4 with both weights; with shorter steps, too."""
+    """Freezing of the gas of Fig. 4 with both weights, and with shorter steps."""
     for (weight, step), seed in product(((Lucy, 1.0), (Monaghan, 1.0), (Lucy, 1/4), (Lucy, 1/16)), SEEDS):
         yield Freezing(weight=weight, step=step, seed=seed)
     yield Fastest()
 
 
 def speeds() -> Iterator[Case]:
-    """Of sound."""
+    """Speeds of sound on lattices."""
     for lattice, weight in product(LATTICES.values(), WEIGHTS):
         yield Speed(lattice=lattice, weight=weight)
 
 
 def spectra() -> Iterator[Case]:
-    """Of frozen lattices."""
+    """Numbers of long waves on lattices."""
     for crystal, kind, h in product((HEXAGONAL, SQUARE), WEIGHTS, (2.5, 3.0, 4.0, 5.0, 6.0)):
         yield Debye(crystal=replace(crystal, weight=kind, h=h))
 
 
 def stirred() -> Iterator[Stirred]:
-    """Forces, rows, viscosities, pressures, steps, weights; corrected sums."""
+    """Stirred vortices: forces, rows, viscosities, pressures, steps, weights; corrected sums."""
     printed = VARIANTS["printed"]
     forces, few = (0.02, 0.05, 0.1, 0.2, 0.4), (0.1, 0.2, 0.4)
     for rows, U, seed in (*product((25,), forces, SEEDS), *product((50,), forces, SEEDS[:2]),
@@ -115,7 +115,7 @@ def stirred() -> Iterator[Stirred]:
 
 
 def aligned() -> Iterator[Stirred]:
-    """Flows along one axis: layers, and what plates add."""
+    """Flows along x: in a periodic box, and between plates."""
     for name, seed in product(("printed", *PRESSURES[:2]), SEEDS[:2]):
         for rows in (25, 50, 100) if name == "printed" else (25, 50):
             yield Stirred(variant=VARIANTS[name], mode=SHEARED, rows=rows, seed=seed)
@@ -125,7 +125,7 @@ def aligned() -> Iterator[Stirred]:
 
 
 def ranges() -> Iterator[Stirred]:
-    """Wendland's weight at a fixed range, and one like rows^(1/2)    [Zhu, Hernquist & Li 2015]"""
+    """Flows with Wendland's weight: fixed range, range like rows^(1/2)    [Zhu, Hernquist & Li 2015]"""
     for rows, seed in product((25, 50, 100), SEEDS[:2]):
         fixed = VARIANTS["wendland-c2"]
         time = 8.0 if rows < 100 else 4.0
@@ -138,13 +138,13 @@ def ranges() -> Iterator[Stirred]:
 
 
 def makers() -> Iterator[StirredMaker]:
-    """Today's smooth particles, three forces each."""
+    """Stirred vortices of today's smooth particles, at three forces each."""
     for name, U in product(MAKERS, (0.1, 0.2, 0.4)):
         yield StirredMaker(variant=TODAY[name], rows=25, U=U)
 
 
 def growing(rows: int) -> Variant:
-    """Of so many rows."""
+    """The variant whose range grows as rows^(1/2)."""
     return VARIANTS["wendland-c2"]._replace(h=3.0*(rows/25)**0.5)
 
 

@@ -1,4 +1,4 @@
-"""Small motions of inviscid smooth particles on a lattice, by sums and by runs    [KHP95, Secs II, III, VI]
+"""Small motions of inviscid smooth particles on a lattice: sums and runs    [KHP95, Secs II, III, VI]
 
 About rest at summed density rho, without conduction, displacements u exp(ik.r) obey d2u/dt2 = -M u,
 
@@ -6,8 +6,8 @@ About rest at summed density rho, without conduction, displacements u exp(ik.r) 
     S = sum_r grad w sin k.r
     D = sum_r (grad grad w)(1 - cos k.r)
 
-The sums are over the neighbours r of a particle; c is the isentropic speed of sound. A negative eigenvalue of
-M is a motion that grows: weights with pairs melt into pairs, fluids under negative pressure clump.
+The sums are over the neighbours r of a particle; c is the isentropic speed of sound. A motion with a negative
+eigenvalue of M grows: with some weights lattices turn into pairs; fluids under negative pressure clump.
 """
 from collections.abc import Callable
 from contextlib import suppress
@@ -30,23 +30,23 @@ from studies.kit.stats import Measured, with_errors
 
 
 class Lattice(NamedTuple):
-    """Rectangular cells of a size (2,) with the particles in them, at density 1."""
+    """A lattice of density 1: size (2,) of its rectangular cells, particles inside a cell over this size."""
     name: str
     size: tuple[float, float]
     inside: tuple[tuple[float, float], ...]
 
     def box(self, cells: tuple[int, int]) -> tuple[float, float]:
-        """Sides of so many cells along x and y."""
+        """Sides of a box of so many cells along x and y."""
         return self.size[0]*cells[0], self.size[1]*cells[1]
 
     def places(self, cells: tuple[int, int]) -> np.ndarray:
-        """Particles (n, 2) in a box centred on the origin."""
+        """Places (n, 2) of particles in a box centred on the origin."""
         corners = whole_numbers(cells).reshape(-1, 1, 2)
         x = (corners + self.inside)*self.size
         return x.reshape(-1, 2) - np.array(self.box(cells))/2
 
     def neighbours(self, reach: float) -> np.ndarray:
-        """(n, 2): vectors to the neighbours nearer than `reach`, the same for all particles."""
+        """Vectors (n, 2) to the neighbours nearer than `reach`, the same for all particles."""
         columns, rows = (int(2*reach/side) + 4 for side in self.size)
         x = self.places((columns, rows))
         r = x - x[np.argmin(np.hypot(*x.T))]
@@ -54,7 +54,7 @@ class Lattice(NamedTuple):
         return r[(distance < reach) & (distance > 0)]
 
     def vectors(self, cells: tuple[int, int]) -> np.ndarray:
-        """(n, 2): wave vectors that fit into a box, without those that move all particles alike."""
+        """Wave vectors (n, 2) that fit into a box, without those that move all particles alike."""
         turns = whole_numbers(len(self.inside)*np.array(cells))
         k = 2*np.pi*turns/self.box(cells)
         phase = k@self.neighbours(2.0).T
@@ -62,7 +62,7 @@ class Lattice(NamedTuple):
 
 
 def whole_numbers(counts: Any) -> np.ndarray:
-    """(n, 2): all pairs of whole numbers below two counts."""
+    """All pairs (n, 2) of whole numbers below two counts."""
     grids = np.meshgrid(*map(np.arange, counts), indexing="ij")
     return np.stack(grids, axis=-1).reshape(-1, 2)
 
@@ -74,19 +74,19 @@ LATTICES = {lattice.name: lattice for lattice in (
 
 
 class LatticeMotion(NamedTuple):
-    """Displacements a cos k.r, |a| = 1, omega^2, rate of growth, minus the frequency if nothing grows."""
+    """Displacements a cos k.r, |a| = 1. square : omega^2. rate : of growth, or minus the frequency."""
     k: np.ndarray
     a: np.ndarray
     square: float
     rate: float
 
 
-#: of unit masses: density, S (n, 2) and D (n, 2, 2) at n wave vectors
+#: lattice sums of unit masses: density, S (n, 2) and D (n, 2, 2) at n wave vectors
 Sums = tuple[float, np.ndarray, np.ndarray]
 
 
 def sums(weight: Any, lattice: Lattice, k: np.ndarray) -> Sums:
-    """At wave vectors k (n, 2), as `particles.limits` has them for the square lattice."""
+    """Lattice sums at wave vectors k (n, 2), as `particles.limits` has them for the square lattice."""
     x = lattice.neighbours(weight.h)
     r = np.hypot(*x.T)
     w, slope, curvature = np.array([derivatives(weight, one) for one in r]).T
@@ -108,7 +108,7 @@ def derivatives(weight: Any, r: float, step: float = 1e-5) -> tuple[float, float
 
 
 def matrices(of_unit: Sums, eos: Any, e: float, m: float = 1.0) -> np.ndarray:
-    """M (n, 2, 2) of the wave vectors of the sums."""
+    """M (n, 2, 2) at the wave vectors of the sums."""
     rho, S, D = of_unit
     rho *= m
     P = pressure(eos, rho, e)
@@ -118,7 +118,7 @@ def matrices(of_unit: Sums, eos: Any, e: float, m: float = 1.0) -> np.ndarray:
     return (m/rho)**2*(c2 - 2*P/rho)*SS + 2*m*P/rho**2*D
 
 
-LONG = 1000.0       # spacings: sound that long has the speed of the longest to 1e-5
+LONG = 1000.0       # wavelength in spacings: sound has the speed of the longest waves to 1e-5
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -137,12 +137,12 @@ class Speed(Case):
 
 # --- motions that grow ----------------------------------------------------------------------------
 
-SHIFT = 1e-8                    # of the places at the start, spacings
+SHIFT = 1e-8                    # displacements at the start, spacings
 LINEAR = (1e-12, 1e-6)          # kinetic energies at shifts of 1e-6 to 1e-2 spacings, where motions are small
-GROWN = 100.0                   # of the energy: what counts as growth in the search for the onset
-PATIENCE = 200.0                # time that a search waits: ln 10/200 is a rate of 0.012
+GROWN = 100.0                   # factor of the energy that counts as growth in the search for the onset
+PATIENCE = 200.0                # duration of runs of a search: ln 10/200 is a rate of 0.012
 HALVINGS = 8
-PHASE = 1.0                     # without it a cosine may vanish at all places at the edge of the zone
+PHASE = 1.0                     # of a cosine, which without it may vanish at all places at the zone's edge
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -162,7 +162,7 @@ class Crystal:
 
     @property
     def motion(self) -> LatticeMotion:
-        """What grows fastest by lattice sums, or is slowest if nothing grows."""
+        """The motion that grows fastest by lattice sums, or the slowest one if none grows."""
         k = self.lattice.vectors(self.cells)
         M = matrices(sums(self.weight.of(h=self.h), self.lattice, k), self.eos, self.e, self.rho)
         squares, a = np.linalg.eigh(M)
@@ -177,7 +177,7 @@ class Crystal:
                 "eos": type(self.eos).__name__, "T": self.T, "rho": self.rho}
 
     def energies(self, time: float, shifts: Callable) -> tuple[np.ndarray, np.ndarray]:
-        """Times and kinetic energies per mass until the run diverges. shifts : of places x (n, 2)."""
+        """Times and kinetic energies per mass until the run diverges. shifts : x -> shifts over SHIFT."""
         x, energies = self.lattice.places(self.cells), list[float]()
 
         def kinetic(sums: Any, state: np.ndarray) -> float:
@@ -193,7 +193,7 @@ class Crystal:
 
 
 def growth(times: np.ndarray, energies: np.ndarray) -> Measured:
-    """Rate of the motion, half of the energy's, where the motion is small and has left the start behind."""
+    """Growth rate of the motion, half of the energy's, while it is small and has left its start behind."""
     low, high = LINEAR
     until = np.argmax(energies > high)
     times, energies = times[:until], energies[:until]
@@ -241,7 +241,7 @@ class Onset(Case):
         return replace(self.crystal, **changed)
 
     def grows(self, value: float) -> bool:
-        """Whether the mean energy of the last tenth is much larger than that of the second one."""
+        """Whether the mean energy of the last tenth of a run exceeds GROWN times that of the second."""
         rng = np.random.default_rng(self.seed)
         _, energies = self.at(value).energies(PATIENCE, lambda x: rng.standard_normal(x.shape))
         tenth = max(1, len(energies)//10)

@@ -1,7 +1,7 @@
-"""Long waves of a frozen fluid beside Debye's of the continuum    [KHP95, Sec. VII]
+"""Numbers of long waves of a frozen fluid beside those of Debye's continuum    [KHP95, Sec. VII]
 
-In 2D there are omega^2/(4 pi n c^2) waves a particle below omega, of each kind. A fluid has one kind, sound,
-in which the density fluctuates. A lattice has shear waves, too.
+In 2D there are omega^2/(4 pi n c^2) waves per particle below omega, of each kind. A fluid has one kind,
+sound, in which the density fluctuates. A lattice has shear waves, too.
 """
 from dataclasses import dataclass
 from pathlib import Path
@@ -24,7 +24,7 @@ def squares(crystal: Crystal, k: np.ndarray) -> np.ndarray:
 
 @dataclass(frozen=True, kw_only=True)
 class Debye(Case):
-    """By their speeds, over those of the fluid."""
+    """Numbers of long waves of a lattice, from their speeds, over that of the fluid."""
     crystal: Crystal
 
     def run(self, report: Report, folder: Path) -> Outcome:

@@ -47,7 +47,7 @@ def stress(driven: pd.DataFrame, laws: pd.DataFrame, foretold: pd.DataFrame) -> 
 
 
 def series(driven: pd.DataFrame, name: str) -> pd.DataFrame:
-    """Runs of vortices at one force."""
+    """Runs of vortices at one force that belong to one of SERIES."""
     some = driven.query("mode == 'stirred' and U == 0.2 and thick == 1")
     wide = np.isclose(some.h, 3*np.sqrt(some.rows/25))
     kinds = {"printed": (some.variant == "printed") & ~some.corrected,

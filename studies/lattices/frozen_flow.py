@@ -1,8 +1,8 @@
 """At which static pressure does convection of 512 particles freeze?    [KHP95, Sec. IV, Fig. 4]
 
-The continuum does not feel this pressure: it is added to the sums as a negative fraction of the static one
-that `LessStatic` leaves out, with the gravity that balances it; P is what is left at mid-height, 1 as
-printed.
+The continuum equations do not depend on this pressure. It is added to the sums, with the gravity that
+balances it, as a negative fraction of the static pressure that `LessStatic` leaves out. P is the pressure
+left at mid-height, 1 as printed.
 """
 from dataclasses import dataclass
 from functools import cache
@@ -29,17 +29,17 @@ SCENE = RayleighBenard(ra=3000.0, L=float(ROWS))
 UNIT = SCENE.L/SCENE.free_fall
 RANGE = 3.0
 HALVINGS = 5
-FROZEN = 0.1            # of the energy of the grid's field, smoothed by the same weight
+FROZEN = 0.1            # over the energy of the grid's field, smoothed by the same weight
 T_END = 60.0            # free-fall times
 MEAN_FROM = 30.0
-WINDOW, LOOKS = 2.0, 20     # free-fall times in which distances of neighbours fluctuate, looks at them
-SITE, SHELL = 0.5, 6        # neighbours: the six nearest beyond half a spacing, where partners of a pair are
+WINDOW, LOOKS = 2.0, 20     # free-fall times of measuring distances of neighbours, number of samples
+SITE, SHELL = 0.5, 6        # neighbours: the six nearest beyond half a spacing; partners of a pair are nearer
 GRIDS = (16, 24)                    # rows of the grid: K of 24 is good to 1.5 %
 
 
 @cache
 def grid_energies(weight: Any) -> tuple[float, float]:
-    """K of the steady grid, as it is and smoothed as particles smooth theirs."""
+    """K of the steady flow on the grid, plain and smoothed as that of particles."""
     finest = steady_on(SCENE, GRIDS)[-1]
     return smoothed_energy(finest.fields, Smoothing(weight, RANGE, ROWS))
 
@@ -85,13 +85,13 @@ class Freezing(Case):
                 low = middle
         limit = float(np.exp((low + high)/2))
         half = float(np.exp(high) - np.exp(low))/2
-        if {row["flow"] < FROZEN for row in rows} != {False, True}:     # the interval's end is all there is
+        if {row["flow"] < FROZEN for row in rows} != {False, True}:     # the limit is outside [low, high]
             limit = np.nan
         return Outcome({"freezing": rows, "freezing_limits": [
             {**self.columns, "measured": limit, "measured_err": half, **criteria(self.weight, plain)}]})
 
     def row(self, P: float, K: float) -> dict[str, Any]:
-        """One run at pressure P. K : of the grid's field, smoothed."""
+        """The row of one run at pressure P. K : of the grid's smoothed field."""
         variant = Variant("pressure", weight=self.weight, h=RANGE, fraction=1 - P, step=self.step*OF_LIMIT)
         method, start, dt = variant.ready(SCENE, self.seed)
         grid, every = Grid.over(method.box, ROWS), max(1, round(UNIT/4/dt))
@@ -110,7 +110,7 @@ class Freezing(Case):
 
 @dataclass(frozen=True, kw_only=True)
 class Fastest(Case):
-    """How much faster than the mean is the fastest point of the grid's flow?"""
+    """Ratio of the largest v^2 of the grid's flow to its mean, on several grids."""
     cost = 20.0
 
     def run(self, report: Report, folder: Path) -> Outcome:
@@ -120,7 +120,7 @@ class Fastest(Case):
 
 
 def fastest(fields: NodeFields) -> float:
-    """The largest v^2 over 2 K."""
+    """The largest v^2 of a flow over 2 K."""
     x, y = (np.linspace(line[0], line[-1], FINE, endpoint=False) for line in (fields.x, fields.y))
     at = interpolate(fields, *np.meshgrid(x, y))
     square = at.vx**2 + at.vy**2
@@ -128,7 +128,7 @@ def fastest(fields: NodeFields) -> float:
 
 
 def places(method: Spam, done: Run, dt: float) -> np.ndarray:
-    """(times, n, 2) of the particles in a window after a run, in the order of their numbers."""
+    """Places (times, n, 2) of the particles in a window after a run, in the order of their ids."""
     looks = [done.by_id()]
     plan = Plan(dt=dt, steps=max(1, round(WINDOW*UNIT/dt/LOOKS)))
     for _ in range(LOOKS):
@@ -137,8 +137,8 @@ def places(method: Spam, done: Run, dt: float) -> np.ndarray:
 
 
 def neighbours(x: np.ndarray, width: float) -> tuple[np.ndarray, np.ndarray]:
-    """Pairs (i, j) of particles (n, 2), periodic in x: of each the six nearest beyond half a spacing."""
-    # taken twice: scipy takes no place at the end of the box
+    """Pairs (i, j) of neighbours, periodic in x: for each place x (n, 2) the six nearest beyond SITE."""
+    # modulo twice: scipy refuses places at the end of the box, where rounding may put them
     along, up = x[:, 0] % width % width, x[:, 1] - x[:, 1].min()
     tree = cKDTree(np.stack([along, up], axis=1), boxsize=np.array([width, 3*up.max()]))
     distance, number = tree.query(tree.data, 2*SHELL + 4)

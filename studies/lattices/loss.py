@@ -1,17 +1,17 @@
-"""How much convection is lost to the stress of the pressure sum: a law, foretold K, and what was measured.
+"""The convection lost to the stress of the pressure sum: a law, K predicted by it, and K measured.
 
 Stirred particles bear, beside friction eta gamma, the stress
 
     tau = C P^(1 - q) (eta gamma)^q,        gamma^2 = 2 e:e
 
-C and q are fitted to flows that a force holds. P is the pressure that the sums hold, 1 - fraction of the
-gas's own. Three steps lead to K, none of which knows a particle that convects:
+C and q are fitted to flows that a force holds. P is the pressure in the sums, the part 1 - fraction of that
+of the gas. Three steps lead to K, none of which uses particles in convection:
 
-1. Dissipation of tau in a roll is that of a fluid x times as viscous, x = 1 + <tau gamma>/<eta gamma^2>,
-   means over the field of the grid at (Ra/x, Pr x), which is the same gas so much more viscous.
-2. Plates of resting images hold the fluid as if they were b farther away: the slip length, from the flow
-   between plates. Linear theory with v_x = b dv_x/dn gives Ra_c(b) and the dissipation D(b) of a roll per
-   kinetic energy.
+1. With tau a roll dissipates as in a fluid x times as viscous, x = 1 + <tau gamma>/<eta gamma^2>, with means
+   over the field of the grid at (Ra/x, Pr x), which is the same gas with x times the viscosity.
+2. Plates with resting images act as if they were farther away by the slip length b, which is measured in the
+   flow between plates. Linear theory with v_x = b dv_x/dn gives Ra_c(b) and the dissipation D(b) of a roll
+   per kinetic energy.
 3. K D ~ Nu - 1 ~ 1 - Ra_c/Ra: K = K_grid(Ra/x, x) [1 - Ra_c(b) x/Ra]/[1 - Ra_c(0) x/Ra] D(0)/D(b).
 
 Step 3 was chosen after a look: with K ~ 1 - (Ra_c/Ra)^(1/2) in its place the gain by slip is half as large.
@@ -43,9 +43,9 @@ from studies.kit.table import Row, Rows, Table, Tables, groups
 GRIDS = (16, 24)                    # rows: K to 1.5 %
 THICK = (1.0, 1.1, 1.2, 1.4, 1.7, 2.0, 2.5, 3.2)
 POWERS = tuple(np.round(np.arange(0, 1.01, 0.2), 1))
-FLOWS = 1800.0          # Ra above which the grid is asked
+FLOWS = 1800.0          # Ra above which the grid is run: it convects there
 ROLL = np.pi            # wave number of two rolls in a layer twice as wide as high
-LEAST = 25              # rows from which a law of many particles is asked for
+LEAST = 25              # rows from which on K is predicted: the law is one of many particles
 USUAL = 0.02            # J of convection at Ra 10 000, where the error of the law is read
 FAR = ("printed-from-flow", "printed-half-step")
 
@@ -69,7 +69,7 @@ TABLES = (THICKENED, LAWS, FORETOLD)
 
 @dataclass(frozen=True, kw_only=True)
 class Thickened(Case):
-    """The steady layer of an Ra, and of gases more viscous."""
+    """The grid's steady layer at an Ra, and in gases more viscous by THICK."""
     ra: float
 
     @property
@@ -90,7 +90,7 @@ class Thickened(Case):
 def strained(fields: Any, thick: float) -> tuple[np.ndarray, np.ndarray, float, np.ndarray, float]:
     """Rate of strain gamma and P at nodes, eta of the layer without excess, weights of nodes, K."""
     at, h = fields.at, fields.h
-    vx, vy, rho, T = (q[:, :-1] for q in (at.vx, at.vy, at.rho, at.T))     # the last column is the first
+    vx, vy, rho, T = (q[:, :-1] for q in (at.vx, at.vy, at.rho, at.T))     # the last column repeats the first
 
     def along(q: np.ndarray) -> np.ndarray:
         return (np.roll(q, -1, axis=1) - np.roll(q, 1, axis=1))/(2*h)
@@ -113,18 +113,18 @@ def projected(q: float) -> float:
 
 
 def family(name: str) -> str:
-    """The variant whose law is also that of this one: only the part of the static pressure differs."""
+    """Name of the first variant with the same law: it may differ in static pressure, walls and step."""
     kind = lawful(VARIANTS[name])
     return next(other.name for other in VARIANTS.values() if lawful(other) == kind)
 
 
 def lawful(kind: Variant) -> tuple:
-    """What a law depends on."""
+    """The fields of a variant on which its law depends."""
     return kind.weight, kind.h, kind.gradients, kind.transport
 
 
 def fitted(driven: pd.DataFrame) -> pd.DataFrame:
-    """Runs that a law is fitted to, with J = eta gamma/P and stress over P, of stirred runs."""
+    """Stirred runs that laws are fitted to, with name of the law, J = eta gamma/P and tau, stress over P."""
     usual = driven.query("mode == 'stirred' and not corrected and flow > 0.1 and variant not in @FAR")
     known = usual[usual.variant.isin(VARIANTS)]
     known = known[known.h == [VARIANTS[name].h for name in known.variant]]
@@ -132,14 +132,14 @@ def fitted(driven: pd.DataFrame) -> pd.DataFrame:
 
 
 class Law(NamedTuple):
-    """tau of a family; `spread`: relative error of tau at the J of convection."""
+    """Law of the stress tau of a family. spread : relative error of tau at the J of convection."""
     C: float
     q: float
     spread: float
 
 
 def laws(driven: pd.DataFrame) -> Iterator[Row]:
-    """Of all families with three runs or more."""
+    """Laws of all families with three runs or more."""
     for name, runs in groups(fitted(driven), "law"):
         if len(runs) > 2:
             fit = power_law(runs.J, runs.tau)
@@ -170,19 +170,19 @@ def roll(b: float) -> tuple[float, float]:
 
 
 def gain(b: float, ra: float) -> float:
-    """K between plates of slip length b, in heights, over that between those that hold."""
+    """K between plates with slip length b, in heights, over K between plates without slip."""
     (least, loss), (usual, whole) = roll(b), roll(0.0)
     return (1 - least/ra)/(1 - usual/ra)*whole/loss
 
 
 def slips(driven: pd.DataFrame) -> dict[str, Measured]:
-    """Slip length in spacings by what is behind the plates; images that turn v, by definition none."""
+    """Slip lengths in spacings, by what is behind the plates."""
     plates = driven.query("mode == 'plates' and h == 3")
     return {walls: combine([(b, 0.0) for b in runs.slip]) for walls, runs in groups(plates, "walls")}
 
 
 def length(slip: dict[str, Measured], kind: Variant) -> float:
-    """Of a variant; nan where it was not measured."""
+    """Slip length of a variant; nan where it was not measured."""
     rows = kind.walls.__name__ == "fixed_rows"
     name = "images_odd" if kind.moves else "fixed_rows" if rows else "images"
     return slip[name].value if name in slip else np.nan
@@ -192,9 +192,9 @@ def length(slip: dict[str, Measured], kind: Variant) -> float:
 
 
 def thickness(layer: pd.DataFrame, law: Law, left: float) -> tuple[float, float]:
-    """(x, K_grid(Ra/x, x)/K_grid(Ra, 1)) of a layer at one Ra with so much of the pressure left; none: rests.
+    """(x, K_grid(Ra/x, x)/K_grid(Ra, 1)) of a layer at one Ra; (nan, 0) if it rests. left : part of P left.
 
-    Of several x the least, which a flow that is strong at first finds.
+    Of several solutions x the least, which a flow that is strong at first approaches.
     """
     by = layer.pivot(index="thick", columns="q", values="share")
     share = np.exp([PchipInterpolator(by.columns, row)(law.q) for row in np.log(by.to_numpy())])
@@ -208,13 +208,13 @@ def thickness(layer: pd.DataFrame, law: Law, left: float) -> tuple[float, float]
 
 
 def thicker(layer: pd.DataFrame, x: float) -> float:
-    """K of the layer x times as viscous over its own."""
+    """K of the layer with x times the viscosity, over its own."""
     ke = np.log(layer.groupby("thick").ke.first())
     return float(np.exp(PchipInterpolator(ke.index, ke - ke.iloc[0])(x)))
 
 
 def foretold(tables: Tables, known: dict[str, Law]) -> Iterator[Row]:
-    """K of what `results/rb` has, of laws and Ra that were run."""
+    """Predicted and measured K of runs in `results/rb`, where the law and the layer of the Ra are known."""
     layers, slip = dict(groups(tables["thickened"], "ra")), slips(tables["driven"])
     usual = measured().query("eos == 'ideal' and transport == 'const-eta' and pr == 1 and "
                              f"sides == 'periodic' and resolution >= {LEAST} and variant not in @FAR")
@@ -229,20 +229,20 @@ def foretold(tables: Tables, known: dict[str, Law]) -> Iterator[Row]:
 
 
 def measured() -> pd.DataFrame:
-    """Errors of Kg of smooth particles that the study rb has."""
+    """Errors of Kg of smooth particles from the study rb."""
     return read(RESULTS/"rb"/"errors.csv").query("method == 'spam' and energy == 'Kg'")
 
 
 def with_slip(layer: pd.DataFrame, law: Law, left: float, b: float,
               ra: float) -> tuple[float, float, float, float]:
-    """(x, K without slip, K with it, its error: of the law)."""
+    """(x, K without slip, K with slip, its error from that of the law)."""
     tried = [thickness(layer, law._replace(C=law.C*(1 + s*law.spread)), left) for s in (0, -1, 1)]
     middle, more, less = (bulk*gain(b, ra/x) if bulk else 0.0 for x, bulk in tried)
     return *tried[0], middle, (more - less)/2
 
 
 def derive(tables: Tables) -> Rows:
-    """Laws, and K that they foretell."""
+    """Rows of laws, and of K that they predict."""
     if not {"driven", "thickened"} <= tables.keys():
         return {}
     found = list(laws(tables["driven"]))

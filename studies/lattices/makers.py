@@ -1,6 +1,6 @@
-"""Does the law of lost convection hold for what people use today? What friction leaves over, and K from it.
+"""The law of lost convection for today's smooth particles: the excess over friction, and K predicted from it.
 
-A law with a power is fitted where every run has an excess that is told from none, else that of a viscosity,
+A power law is fitted where the excess of every run differs from zero. Elsewhere the excess is a viscosity:
 q = 1, C the mean excess over friction. The steps to K are those of `loss`; odd images do not slip.
 """
 import numpy as np
@@ -16,7 +16,7 @@ RA = 10_000.0
 
 
 def law(runs: pd.DataFrame) -> Row:
-    """C, q of one maker."""
+    """A row of the table `laws`: C, q of one method."""
     J, tau = runs.friction/runs.P, runs.excess/runs.P
     C, q, scatter = (tau/J).mean(), Measured(1.0), (tau/J).std()
     if (runs.excess > runs.excess_err).all():
@@ -27,7 +27,7 @@ def law(runs: pd.DataFrame) -> Row:
 
 
 def thickness(layer: pd.DataFrame, found: Row) -> tuple[float, float]:
-    """(x, K over that of the grid); of a viscosity x = 1 + C, which may be less than 1."""
+    """(x, K over that of the grid); if the excess is a viscosity, x = 1 + C, which may be less than 1."""
     if found["q"] != 1:
         return loss.thickness(layer, loss.Law(found["C"], found["q"], 0.0), 1.0)
     x = 1 + found["C"]
@@ -35,7 +35,7 @@ def thickness(layer: pd.DataFrame, found: Row) -> tuple[float, float]:
 
 
 def derive(tables: Tables) -> Rows:
-    """Laws and K of `loss`, and those of today's makers besides."""
+    """Derived rows of the study: laws and K of `loss`, and those of today's smooth particles."""
     rows = {name: list(some) for name, some in loss.derive(tables).items()}
     if not rows:
         return {}

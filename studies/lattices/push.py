@@ -11,12 +11,12 @@ from particles.smooth.sums import Direct, Nested
 from studies.build import spam
 
 Flowing = Callable[[np.ndarray], np.ndarray]     # of phases k (x, y), (2, n)
-#: what people use today and is stirred, too
+#: today's smooth particles that are stirred, too
 MAKERS = ("sph", "riemann", "sumB", "RKGC", "bonet-lok", "corrected", "CRKSPH", "MFM", "MFM-adiabatic")
 
 
 class Mode(NamedTuple):
-    """A flow v of wave number k = halves pi/L; its strain is n U k/2 times d = ((xx - yy)/2, xy)."""
+    """A flow U v of wave number k = halves pi/L. Its rate of strain ((xx - yy)/2, xy) is n U k/2 times d."""
     name: str
     v: Flowing
     d: Flowing
@@ -26,7 +26,7 @@ class Mode(NamedTuple):
 
 
 def swirl(p: np.ndarray) -> np.ndarray:
-    """Taylor and Green's vortices, whose convection is a pressure."""
+    """Taylor-Green vortices, whose advection is balanced by a pressure."""
     return np.array([np.sin(p[0])*np.cos(p[1]), -np.cos(p[0])*np.sin(p[1])])
 
 
@@ -49,7 +49,7 @@ PLATES = Mode("plates", slide, slope, halves=1, phase=np.pi/2)
 
 @dataclass(frozen=True, kw_only=True)
 class Driven(Spam):
-    """Smooth particles that a force drives in a mode, as large as holds a flow of amplitude 1 times U."""
+    """Smooth particles with a force that holds the flow U v of a mode."""
     mode: Mode
     U: float
 
@@ -70,7 +70,7 @@ class Driven(Spam):
 
 
 class Push(Nested):
-    """Sums with the force; energies stay."""
+    """Sums with the force, at constant energies."""
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
         super().rates(state, out)
@@ -79,13 +79,13 @@ class Push(Nested):
         out[4] = 0.0
 
     def tensor(self) -> np.ndarray:
-        """(3, points): xx, xy, yy of what stands for P/rho^2 in the sum."""
+        """Components xx, xy, yy (3, points) of the tensor in place of P/rho^2 in the pressure sum."""
         P = self.less/self.around.rho**2
         return np.array([P, 0*P, P])
 
 
 class PushAlong(Push, Direct):
-    """The same with friction along pairs."""
+    """As `Push`, with friction along pairs."""
     symbol = Direct.symbol
     allocate, prepare, exchange = Direct.allocate, Direct.prepare, Direct.exchange
 
@@ -106,20 +106,20 @@ class Corrected(Push):
 
 
 class OfToday(Push):
-    """Sums with the force; which stress their pressure makes is not asked."""
+    """Today's sums with the force; the stress of their pressures is not measured."""
 
     def tensor(self) -> np.ndarray:
         return np.zeros((3, len(self.around.x)))
 
 
-#: transport -> the same with a force
+#: class of sums -> the same with the force
 PUSHED = {kind: type(kind.__name__, (OfToday, kind), {name: getattr(kind, name) for name in (
     "allocate", "prepare", "exchange", "gradients", "symbol")}) for kind in (
         spam.TODAY[name].transport for name in MAKERS)}
 
 
 def moments(sums: Nested) -> np.ndarray:
-    """M_i as (3, points): xx, xy, yy."""
+    """Components xx, xy, yy (3, points) of M_i."""
     around, pairs = sums.around, sums.around.pairs
     row, entry = entries(pairs, np.arange(sums.n))
     near = pairs.near[entry]
@@ -133,7 +133,7 @@ def moments(sums: Nested) -> np.ndarray:
 
 
 def stresses(sums: Any) -> np.ndarray:
-    """(2, n): (xx - yy)/2 and xy of the stress of the pressure sum, of each particle."""
+    """Components (xx - yy)/2 and xy (2, n) of the stress of the pressure sum, for each particle."""
     around, pairs, n = sums.around, sums.around.pairs, sums.n
     row, entry = entries(pairs, np.arange(n))
     near, wx, wy = pairs.near[entry], pairs.wx[entry], pairs.wy[entry]

@@ -1,9 +1,9 @@
-"""Which stress do particles bear beside that of friction? Flows that a force holds.
+"""The stress that particles bear beside friction, measured in flows that a force holds.
 
-A gas of T = 1 in a periodic box or between plates; the force n eta k^2 U v(x) holds U v(x) exactly, of whose
-stress n eta k U d(x) is the amplitude. A run ends with A v(x), and with three more amplitudes along d:
+A gas of T = 1 is in a periodic box or between plates. The force n eta k^2 U v(x) exactly holds the flow
+U v(x), whose stress is n eta k U d(x). A run gives a flow A v(x), and three amplitudes of stresses along d:
 
-    excess     n eta k (U - A), what friction of the given eta does not bear
+    excess     n eta k (U - A), the part that friction with the given eta does not bear
     stress     that of the pressure sum, the deviator of 1/2 sum_j m (P_i/rho_i^2 + P_j/rho_j^2) r_ji grad w
     kinetic    that of the particles' noise
 
@@ -27,14 +27,14 @@ from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import mean, with_errors
 from studies.lattices.push import PLATES, PUSHED, STIRRED, Corrected, Driven, Mode, Push, PushAlong, stresses
 
-SETTLED = 1/3           # of a run, before means: three turns and more of the flow
-LOOKS = 10              # in the time that friction takes to slow a flow by e
+SETTLED = 1/3           # part of a run before means are taken: at least three turns of the flow
+LOOKS = 10              # samples in the time in which friction slows a flow by e
 ETA = 0.01              # over L: viscosity of KHP95's gas at Ra 10 000
-CHANNEL = 25            # columns of flows along x: longer waves of an unstable shear flow find no room
+CHANNEL = 25            # columns of flows along x: too few for the longer waves that shear makes unstable
 
 
 class Layer(Tile):
-    """The same between plates that rest."""
+    """A tile between plates at rest, periodic along x."""
     sides = Periodic()
 
 
@@ -44,13 +44,13 @@ def of_pressure(sums: Any, state: np.ndarray) -> float:
 
 
 def of_noise(sums: Any, state: np.ndarray) -> float:
-    """Amplitude of the stress -rho v v of velocities beside the flow."""
+    """Amplitude of the stress -rho v v of velocities less the flow."""
     u, v = beside(sums, state)
     return amplitude(np.array([(v*v - u*u)/2, -u*v]), sums.method.d(state))
 
 
 def of_flow(sums: Any, state: np.ndarray) -> float:
-    """Amplitude of the velocity."""
+    """Amplitude A of the flow."""
     return amplitude(state[2:4], sums.method.v(state))
 
 
@@ -59,20 +59,20 @@ def beside(sums: Any, state: np.ndarray) -> np.ndarray:
 
 
 def amplitude(field: np.ndarray, shape: np.ndarray) -> float:
-    """Of the shape in a field, both (2, n), by least squares."""
+    """Amplitude of a shape in a field, both (2, n), by least squares."""
     return float(np.sum(field*shape)/np.sum(shape**2))
 
 
 def in_rows(sums: Any, state: np.ndarray) -> np.ndarray:
-    """(2, rows): particles and their momentum along x, by height."""
+    """Number of particles and their momentum along x in each row (2, rows)."""
     L = sums.method.box[1]
     row = np.clip((state[1] + L/2).astype(int), 0, round(L) - 1)
     return np.array([np.bincount(row, q, round(L)) for q in (np.ones(sums.n), state[2])])
 
 
 def slip_length(rows: np.ndarray, h: float) -> float:
-    """Spacings beyond a plate where the velocity would vanish: of s + V cos(pi y/L), fitted farther than h
-    from the plates, s L/(pi V)."""
+    """Distance beyond a plate, in spacings, at which the velocity would vanish: s L/(pi V), from a fit of
+    s + V cos(pi y/L) farther than h from the plates."""
     L = rows.shape[1]
     y = np.arange(L) + 0.5 - L/2
     far = np.abs(y) < L/2 - h
@@ -83,8 +83,8 @@ def slip_length(rows: np.ndarray, h: float) -> float:
 
 @dataclass(frozen=True, kw_only=True)
 class Stirred(Case):
-    """One flow. U : exact amplitude, as at the start. thick : eta over that of Ra 10 000. time : how long, in
-    those of friction. corrected : with `Corrected`."""
+    """One flow. U : exact amplitude, as at the start. thick : eta over that of Ra 10 000. time : duration in
+    times of friction. corrected : whether with the sums of `Corrected`."""
     variant: Any
     mode: Mode = STIRRED
     rows: int
@@ -124,7 +124,7 @@ class Stirred(Case):
         state = spam.at_rest(spam.scattered(scene, self.seed), 1.0)
         state[2:4] = self.U*method.v(state)
         dt = self.variant.step*step_limit(method, 1.0)
-        once = 1/(method.friction*method.k)     # of friction at density 1
+        once = 1/(method.friction*method.k)     # time of friction at density 1
         steps = round(self.time*once/dt)
         series = {"A": of_flow, "stress": of_pressure, "kinetic": of_noise}
         plan = Plan(dt=dt, steps=steps, every=max(1, round(once/LOOKS/dt)), series=series,
@@ -132,7 +132,7 @@ class Stirred(Case):
         return Outcome({"driven": [self.row(method, run(method, state, plan, report))]})
 
     def row(self, method: Driven, done: Run) -> dict[str, Any]:
-        """What bears the force, means over the late part of a run."""
+        """A row of the table `driven`, with means over the late part of a run."""
         late = {name: np.array(values)[round(SETTLED*len(values)):] for name, values in done.series.items()}
         A, stress, kinetic = (mean(late[name]) for name in ("A", "stress", "kinetic"))
         slip = slip_length(done.means["rows"], method.weight.h) if self.mode is PLATES else np.nan
@@ -148,7 +148,7 @@ class Stirred(Case):
 
 @dataclass(frozen=True, kw_only=True)
 class StirredMaker(Stirred):
-    """Vortices of today's smooth particles."""
+    """One flow by today's smooth particles, whose stress of pressures is not measured."""
 
     @property
     def pushed(self) -> type:
@@ -159,7 +159,7 @@ class StirredMaker(Stirred):
 
 
 def symbol(method: Driven) -> float:
-    """Friction of the scheme over the exact one, for waves as long as the flow's on a square lattice."""
+    """Friction of the scheme on a square lattice over the exact one, at the wave number of the flow."""
     k = method.k*np.array([method.mode is STIRRED, 1.0])
     sums = lattice_sums(method.weight, 1.0, 1.0, k[None])
     return float(getattr(sums, method.transport.symbol)[0]/(k@k))

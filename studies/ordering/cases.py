@@ -14,27 +14,27 @@ from studies.ordering import runs
 from studies.ordering.runs import between_images, convection, on_lattice
 
 H = (1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 6.0)
-#: on a lattice, where each has a factor of its own: between these, to have a range every half spacing
+#: further ranges on a lattice, where each has its own factor in the error: one every half spacing
 BETWEEN = (3.5, 4.5, 5.0, 5.5)
 SEEDS = (1, 2, 3)
-#: of gradients with wide weights, range -> seeds besides, where three left it undecided
+#: gradients with wide weights: range -> further seeds, where three do not decide
 MORE = {5.0: range(4, 21), 6.0: range(4, 10)}
-RANGES = H[:-1]     # of the flows
+RANGES = H[:-1]     # ranges of the flows
 IRREGULAR = ("jittered-0.3", "random", "relaxed")
 #: irregular points with triangles that end on rows of points on the plates
 PLATES = {"jittered-0.3": SCHEMES["fixed-jittered-plates"], "random": SCHEMES["fixed-random-plates"],
           "relaxed": SCHEMES["relaxed-plates"]}
-#: rows of convection between these, until the error of K is 1 %
+#: numbers of rows of convection on such points, until the error of K is 1 %
 ROWS = (12, 16, 24, 32, 40, 50)
-#: makers of edges and ranges of the weight between mirror images; exact ones need the wider
+#: makers of edges and ranges of the weight between mirror images; exact edges need the wider one
 MADE = (*product(("plain", "renormalised", "closed"), (2.0, 3.0)), ("exact", 3.0))
-#: wavelengths; more points take longer to relax
+#: kind of points -> wavelengths; more points take longer to relax
 WAVES = dict.fromkeys(DISORDERS, (16, 24, 32, 48, 64, 96)) | {"relaxed": (16, 20, 24, 32)}
-WAVE = 32           # at which ranges and makers are compared
+WAVE = 32           # wavelength at which ranges and makers are compared
 
 
 def cases(size: str) -> list[Case]:
-    """`quick` has few wavelengths and kinds of points."""
+    """All cases of a size; `quick` has few wavelengths and kinds of points."""
     if size == "quick":
         waves = {"lattice": (16, 32), "jittered-0.3": (16, 32)}
         return [*surface(waves), *forms((1.2, 3.0), ("jittered-0.3",)), *quick_flows()]
@@ -45,7 +45,7 @@ def cases(size: str) -> list[Case]:
 
 
 def surface(waves: Mapping[str, Sequence[int]]) -> Iterator[Case]:
-    """Renormalised edges of all ranges, and all makers of edges at two."""
+    """Operators with renormalised edges at all ranges, and with all makers of edges at one range or two."""
     others = (*product(("plain", "printed", "closed"), (2.0, 3.0)), ("exact", 3.0), ("delaunay", 2.0))
     for disorder, wavelengths in waves.items():
         ranges = (*H, *BETWEEN) if disorder == "lattice" else H
@@ -57,13 +57,13 @@ def surface(waves: Mapping[str, Sequence[int]]) -> Iterator[Case]:
 
 def on_points(case: type[runs.OnPoints], maker: str, h: float, disorder: str,
               wavelengths: Sequence[int]) -> Iterator[runs.OnPoints]:
-    """All seeds: points with disorder have several. Without a weight h = 0."""
+    """Cases of all wavelengths and seeds on a kind of points. h : 0 for edges without a weight."""
     for wavelength, seed in product(wavelengths, seeds_of(disorder)):
         yield case(make=MAKERS[maker], h=h, disorder=DISORDERS[disorder], wavelength=wavelength, seed=seed)
 
 
 def seeds_of(disorder: str) -> Sequence[int]:
-    """One lattice is as another."""
+    """Seeds of a kind of points; a lattice has one, since all are alike."""
     return SEEDS[:1] if disorder == "lattice" else SEEDS
 
 
@@ -76,7 +76,7 @@ def forms(ranges: Sequence[float], kinds: Sequence[str]) -> Iterator[Case]:
 
 
 def vortices() -> Iterator[Case]:
-    """On a lattice renormalised, closed and exact edges are one. Exact ones take long to find."""
+    """Decaying vortices. On a lattice renormalised, closed and exact edges agree; exact ones are slow."""
     for h in (*RANGES, 6.0):
         yield from on_points(runs.VortexDecay, "renormalised", h, "lattice", (16, 24, 32, 48, 64))
     three, four = (16, 24, 32), (16, 24, 32, 48)
@@ -90,7 +90,7 @@ def vortices() -> Iterator[Case]:
 
 
 def layers() -> Iterator[Case]:
-    """A lattice, triangles between rows of points, edges of a weight between mirror images."""
+    """Convection: a lattice, triangles between rows of points, edges of a weight between mirror images."""
     for rows, h in product((12, 16, 24, 32), RANGES):
         yield convection("lattice", on_lattice(h), rows)
     for kind, scheme in PLATES.items():
@@ -101,7 +101,7 @@ def layers() -> Iterator[Case]:
 
 
 def quick_flows() -> Iterator[Case]:
-    """A few small ones of each."""
+    """A few small vortices and layers."""
     for h in (1.2, 2.0, 3.0):
         yield from on_points(runs.VortexDecay, "renormalised", h, "lattice", (8, 12, 16))
     for maker, h in (("delaunay", 0.0), ("closed", 2.0), ("renormalised", 2.0)):

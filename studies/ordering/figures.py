@@ -16,7 +16,7 @@ RANGES = (1.2, 2, 3, 4, 6)
 SIZES = (16, 24, 32, 48, 64)
 NAMES = {"taylor-green": "Taylor-Green, velocity", "convection": "Rayleigh-Benard, $|K/K_{grid} - 1|$"}
 LENGTHS = {"taylor-green": r"$\lambda", "convection": "$L"}
-#: makers on irregular points, h = 3 a, but a triangulation has no range
+#: makers of edges on irregular points, with h = 3 a; a triangulation has no range
 MADE = ("delaunay", "exact", "closed", "renormalised")
 
 
@@ -68,13 +68,13 @@ def makers(means: pd.DataFrame) -> Figure:
 
 
 def curves(axes: Axes, rows: pd.DataFrame, by: str, x: str, label: str) -> None:
-    """One for each value of a column, which completes the label."""
+    """Draw a curve for each value of the column `by`, which completes the label."""
     for number, (value, group) in enumerate(rows.groupby(by)):
         curve(axes, group, x, number, label.format(value))
 
 
 def curve(axes: Axes, rows: pd.DataFrame, x: str, number: int, label: str) -> None:
-    """Sizes of errors over x, hollow where negative; the label says how many points lost a seed."""
+    """Draw sizes of errors over x, hollow where negative; the label says how many points lost a seed."""
     if rows.empty:
         return
     known = rows.query("lost == 0").dropna(subset="error")
@@ -133,7 +133,7 @@ def over_points(flows: pd.DataFrame) -> Figure:
 
 
 def decorate(axes: Axes, flow: str, kind: str, ticks: Sequence[float]) -> None:
-    """Axes, a line of second order, the legend."""
+    """Draw axes, a line of second order and the legend."""
     x = np.array([ticks[0], ticks[-1]], float)
     axes.plot(x, 0.02*(ticks[0]/x)**2, color="grey", linestyle="--", marker="", label="order 2")
     finish(axes, ticks, LENGTHS[flow] + "/a$", f"{NAMES[flow]}: {kind}")
@@ -141,7 +141,7 @@ def decorate(axes: Axes, flow: str, kind: str, ticks: Sequence[float]) -> None:
 
 
 def finish(axes: Axes, ticks: Sequence[float], label: str, title: str) -> None:
-    """Scales, and where 1 % is."""
+    """Set scales and labels, and mark 1 %."""
     axes.axhline(WANTED, color="black", linestyle=":", linewidth=0.8)
     axes.set(title=title, xlabel=label)
     logarithmic(axes, ticks)

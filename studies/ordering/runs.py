@@ -29,17 +29,17 @@ from studies.kit.case import Case, Outcome, Report
 #: how a gradient is taken over the edges
 FORMS = ("single", "sum", "difference")
 PHASES = np.array([[0.0], [np.pi/2]])       # of waves
-OF_LIMIT = 0.5      # of a vortex's step to its limit: half of it changes the errors by 2e-4 of themselves
+OF_LIMIT = 0.5      # step of a vortex over its limit: halving it changes errors by 2e-4 of themselves
 RA = 1e4
-RECORDS = 4         # a free-fall time
-#: columns of a layer without an end
+RECORDS = 4         # per free-fall time
+#: columns of a layer that did not reach its end
 NOTHING = {**dict.fromkeys(("ke", "ke_err", "nu", "nu_err", "exchanges"), np.nan), "rolls": 0,
            "converged": False}
 
 
 @dataclass(frozen=True, kw_only=True)
 class OnPoints(Case):
-    """What edges make of a flow on one set of points; without numbers where there are no such edges."""
+    """Errors of a flow with edges on one set of points; nan where there are no such edges."""
     make: Callable[[Points, Any], Edges]
     h: float
     disorder: Disorder
@@ -63,7 +63,7 @@ class OnPoints(Case):
         return Outcome({self.table: [key | values]})
 
     def measured(self, points: Points, edges: Edges, report: Report) -> Sequence[float]:
-        """The numbers."""
+        """Values of the columns `numbers`."""
         raise NotImplementedError
 
 
@@ -82,7 +82,7 @@ class OperatorErrors(OnPoints):
 
 
 def wave_errors(edges: Edges, x: np.ndarray, k: float) -> tuple[float, float]:
-    """Rms errors of grad and lap of a wave over the rms of the true ones; both phases."""
+    """Rms errors of gradient and Laplacian of a wave at both phases, over the rms of the true ones."""
     waves = np.sin(k*x + PHASES)
     squares = [(edges.lap(f) + k**2*f)**2 for f in waves]
     return form_error(edges, edges.G, x, k), relative(edges.V, squares)/k**2
@@ -94,7 +94,7 @@ def relative(V: np.ndarray, squares: Sequence[np.ndarray]) -> float:
 
 
 def form_error(edges: Edges, matrices: Sequence[Any], x: np.ndarray, k: float) -> float:
-    """Rms error of a wave's gradient; V times the gradient is by these matrices, one a direction."""
+    """Rms error of a wave's gradient. matrices : one for each direction, which give V times the gradient."""
     waves, slopes = np.sin(k*x + PHASES), k*np.cos(k*x + PHASES)
     along, *across = ((M@waves.T).T/edges.V for M in matrices)
     return relative(edges.V, (along - slopes)**2 + sum(g**2 for g in across))/k
@@ -179,19 +179,19 @@ POINTS: dict[str, tuple[Callable, float]] = {
 
 
 def on_lattice(h: float) -> Scheme:
-    """A range of the weight."""
+    """The scheme of a lattice with this range of the weight."""
     return Scheme(f"fixed-lattice-h{h:g}", h=h)
 
 
 def between_images(kind: str, maker: str, h: float) -> Scheme:
-    """Edges of a weight over irregular points and their mirror images."""
+    """The scheme with edges of a weight over irregular points and their mirror images."""
     points, size = POINTS[kind]
     return Scheme(f"images-{kind}-{maker}-h{h:g}", MAKERS[maker], Lucy, h, size, points=points)
 
 
 @dataclass(frozen=True, kw_only=True)
 class FixedConvection(Case):
-    """Rayleigh-Benard convection until nothing changes any more; `kind`: of its points."""
+    """Rayleigh-Benard convection until it is steady. kind : of its points."""
     scene: RayleighBenard
     scheme: Scheme
     seed: int = 1
@@ -200,7 +200,7 @@ class FixedConvection(Case):
 
     @property
     def cost(self) -> float:
-        """Points that move apart take the longer the more there are."""
+        """Seconds. Relaxed points first move apart, which takes the longer the more there are."""
         L, h = self.scene.L, self.scheme.h
         steps = self.t_end*L/self.scene.free_fall/max(0.2, 1.1 - L/100)
         apart = 0.04*L**2 if self.kind == "relaxed" else 0.0
@@ -213,7 +213,7 @@ class FixedConvection(Case):
         return Outcome({"convection": [key | self.measured(report, folder)]})
 
     def measured(self, report: Report, folder: Path) -> dict[str, Any]:
-        """K, Nu, rolls at the end, and exchanges over edges, to images among them."""
+        """K, Nu, rolls at the end, and number of exchanges over edges, those to images included."""
         try:
             ready, _, done = followed(self.scene, self.scheme, self.seed, self.t_end, RECORDS, report,
                                       folder/"run.h5")
@@ -229,5 +229,5 @@ class FixedConvection(Case):
 
 
 def convection(kind: str, scheme: Scheme, rows: int, seed: int = 1) -> FixedConvection:
-    """The case of so many rows."""
+    """The case of convection with so many rows."""
     return FixedConvection(scene=RayleighBenard(ra=RA, L=float(rows)), scheme=scheme, seed=seed, kind=kind)

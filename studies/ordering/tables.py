@@ -1,4 +1,4 @@
-"""Tables of the study ordering, and what follows from them: means over seeds, slopes, what 1 % costs.
+"""Tables of the study ordering, and rows derived from them: means over seeds, slopes, the cost of 1 %.
 
 Lengths in spacings; errors relative; `_err`: half of the 95 % interval.
 """
@@ -59,13 +59,13 @@ CHEAPEST = Table.of("cheapest", SERIES, "needed needed_err exchanges bound fines
 ALL = (OPERATORS, MEANS, SLOPES, BRACKETS, BRACKET_MEANS, BRACKET_SLOPES, VORTICES, CONVECTION, REFERENCE,
        FLOWS, FLOW_SLOPES, CHEAPEST)
 
-# --- what follows from them ---------------------------------------------------------------------------------
+# --- derived rows -------------------------------------------------------------------------------------------
 
 WIDE = 2.0          # spacings: ranges from which on errors are a power of the range
-WAVES = 4           # of a slope, at least
-RESOLUTIONS = 3     # of a slope over flows, and over forms of the gradient
+WAVES = 4           # least number of wavelengths for a slope
+RESOLUTIONS = 3     # the same for slopes of flows, and of forms of the gradient
 WANTED = 0.01       # the error at which costs are compared
-#: the grid of the study rb, extrapolated
+#: row of the grid of the study rb, extrapolated
 GRID = {"method": "compressible", "variant": "flux-form", "eos": "ideal", "transport": "const-eta",
         "sides": "periodic", "ra": RA, "pr": 1.0, "resolution": inf}
 FLOW_POINT = list(FLOWS.key)
@@ -82,14 +82,14 @@ def derive(tables: Tables) -> Rows:
 
 
 def slopes(rows: pd.DataFrame, key: Sequence[str], x: str, least: int) -> Iterator[Row]:
-    """d ln error/d ln x of each group with so many x."""
+    """d ln error/d ln x of each group with at least `least` values of x."""
     for values, group in rows.groupby(list(key)):
         if group[x].nunique() >= least:
             yield dict(zip(key, values)) | with_errors(slope=power_law(group[x], group.error).slope)
 
 
 def of_operators(rows: pd.DataFrame) -> dict[str, Any]:
-    """Of gradients and Laplacians of waves: slopes over wavelengths, and over ranges from 2 spacings on."""
+    """Means and slopes of errors of gradients and Laplacians: over wavelengths, over ranges from WIDE on."""
     operators, key = ["gradient", "laplacian"], list(SLOPES.key)
     means = list(seed_means(rows.dropna(subset="gradient"), MEANS.key, operators))
     errors = pd.DataFrame(means).melt(MEANS.key, operators, "operator", "error")
@@ -101,13 +101,13 @@ def of_operators(rows: pd.DataFrame) -> dict[str, Any]:
 
 
 def at_fixed(errors: pd.DataFrame, resolution: str) -> pd.DataFrame:
-    """Each row as one at a fixed h/a and, of wide ranges, as one at a fixed spacing."""
+    """Each row as one at fixed h/a and, if its range is wide, also as one at fixed spacing."""
     wide = errors.query("h >= @WIDE")
     return pd.concat([errors.assign(fixed="h/a", at=errors.h), wide.assign(fixed="a", at=wide[resolution])])
 
 
 def of_brackets(rows: pd.DataFrame) -> dict[str, Any]:
-    """Of gradients in three forms; slopes at h = 3 a."""
+    """Means and slopes of errors of gradients in three forms; slopes at h = 3 a."""
     errors = rows.melt(BRACKETS.key, FORMS, "form", "error")
     means = list(seed_means(errors, BRACKET_MEANS.key, ["error"]))
     series = pd.DataFrame(means).query("h == 3")
@@ -117,7 +117,7 @@ def of_brackets(rows: pd.DataFrame) -> dict[str, Any]:
 
 
 def of_flows(tables: Tables) -> dict[str, Any]:
-    """Of vortices (errors of the velocity) and of convection."""
+    """Rows derived from vortices (errors of velocity) and from convection (errors of K)."""
     ke, parts = reference(), []
     if "vortices" in tables:
         vortices = tables["vortices"].rename(columns={"wavelength": "resolution", "velocity": "error"})
@@ -138,14 +138,14 @@ def reference() -> Measured:
 
 
 def convection(rows: pd.DataFrame, ke: float) -> pd.DataFrame:
-    """Errors of K, with what the last tenth of a run changed; none of a run that ends in other rolls."""
+    """Errors of K, uncertain by the change in the last tenth of a run; nan if a run ends in other rolls."""
     error = (rows.ke/ke - 1).where(rows.rolls == 2)
     rows = rows.assign(flow="convection", error=error, error_err=rows.ke_err/ke)
     return rows.rename(columns={"rows": "resolution"})
 
 
 def flow_means(runs: pd.DataFrame) -> pd.DataFrame:
-    """One row a point of the error surface."""
+    """Means over seeds, one row for each point of the error surface."""
     there = seed_means(runs.dropna(subset="error"), FLOW_POINT, ["error"])
     errors = pd.DataFrame(there, columns=[*FLOW_POINT, "error", "error_err"])
     points = runs.groupby(FLOW_POINT, as_index=False)
@@ -155,7 +155,7 @@ def flow_means(runs: pd.DataFrame) -> pd.DataFrame:
 
 
 def flow_slopes(runs: pd.DataFrame, means: pd.DataFrame) -> Iterator[Row]:
-    """Over resolutions and over ranges; of points where no seed is lost and the error differs from zero."""
+    """Slopes over resolutions and ranges, of points where no seed is lost and the error differs from zero."""
     sure = means.query("lost == 0 and abs(error) > error_err")
     runs = runs.merge(sure[FLOW_POINT], on=FLOW_POINT)
     runs = at_fixed(runs.assign(spacing=1/runs.resolution), "resolution")
@@ -164,14 +164,14 @@ def flow_slopes(runs: pd.DataFrame, means: pd.DataFrame) -> Iterator[Row]:
 
 
 def cheapest(means: pd.DataFrame) -> Iterator[Row]:
-    """Where the error comes below 1 % and stays there."""
+    """What an error of 1 % costs in each series: where errors fall below it for good."""
     means = means.assign(error=means.error.abs()).sort_values("resolution")
     for values, group in means.groupby(list(CHEAPEST.key)):
         yield dict(zip(CHEAPEST.key, values)) | needed(group) | {"finest": group.error.iloc[-1]}
 
 
 def needed(group: pd.DataFrame) -> dict[str, float]:
-    """Resolution and exchanges for 1 % in one series, errors without sign; none where 1 % was not reached."""
+    """Resolution and exchanges for 1 % in one series, errors without sign; nan where 1 % was not reached."""
     above = np.flatnonzero(~(group.error <= WANTED) | (group.lost > 0))
     if not len(above):
         first = group.iloc[0]
@@ -183,7 +183,7 @@ def needed(group: pd.DataFrame) -> dict[str, float]:
 
 
 def at_level(pair: pd.DataFrame) -> dict[str, float]:
-    """Between two resolutions with errors above and below 1 %, by power laws."""
+    """Resolution and exchanges for 1 %, by power laws between a row above and one below it."""
     pair = pair.assign(resolution_err=0.0, exchanges_err=0.0)
     resolution, half = crossing(pair, "resolution", WANTED)
     exchanges, _ = crossing(pair, "exchanges", WANTED)

@@ -1,7 +1,7 @@
-"""Which methods ride in which stream, with how many rows, and what a ride gives: errors, steps, seconds.
+"""Methods, streams and rows of the study, and its runs, which give errors, numbers of steps and seconds.
 
-Each method takes its own usual step. Errors and seconds are cases of their own: what is timed never shares
-the machine. The paper size takes an hour of CPU, twenty minutes of it alone.
+Each method takes its own usual step. Errors and seconds are separate cases, since a timed run has the machine
+to itself. The paper size takes an hour of CPU, twenty minutes of it alone on the machine.
 """
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -27,20 +27,20 @@ from studies.streams import scenes
 from studies.streams.scenes import Carried
 
 STREAMS = (0.0, 0.1, 0.3, 1.0, 3.0, 10.0)
-FEW = (0.0, 1.0, 10.0)      # of methods that cost much, or stay far from 1 %
+FEW = (0.0, 1.0, 10.0)      # streams of methods that cost much, or stay far from 1 %
 QUICK = (0.0, 10.0)
 SCENES: dict[str, type[Carried]] = {
     "vortex": scenes.DecayingVortex, "spot": scenes.Spot, "contact": scenes.Contact, "shear": scenes.Shear,
     "gresho": scenes.Gresho, "mixing": scenes.Mixing, "convection": scenes.Convection,
     "expansion": scenes.Expansion}
-BRIEF = {"quick": 0.005, "paper": 0.05, "fine": 0.05}       # CPU seconds of the steps timed at once, about
+BRIEF = {"quick": 0.005, "paper": 0.05, "fine": 0.05}       # CPU seconds of steps timed together, about
 ROWS, FAST = (16, 32, 64), (32, 64, 128, 192)
-LAYER, FINER = (12, 16, 24, 32), (16, 24, 32, 48)           # of convection: runs of ninety free-fall times
+LAYER, FINER = (12, 16, 24, 32), (16, 24, 32, 48)           # of convection, for ninety free-fall times
 
 
 class Rider(NamedTuple):
-    """A method: its rows, others in streams of 1 or more; its streams, seeds; CPU seconds of a point and
-    step, about; how many numbers of rows are quick."""
+    """How a method takes part. rows : in streams below 1; fast : rows in others. price : CPU seconds of a
+    point and step, about. quick : how many of its rows the quick size has."""
     rows: tuple[int, ...] = ROWS
     fast: tuple[int, ...] = FAST
     streams: tuple[float, ...] = STREAMS
@@ -55,7 +55,7 @@ RIDERS = {
     "grid": Rider(price=1e-7, quick=2), "fixed-lattice-h1.2": Rider(),
     "fixed-jittered-delaunay": Rider(fast=FAST[:3], seeds=3), "moving-delaunay": MOVES,
     "moving": DEAR, "spam": DEAR, "spam-less-static-50": DEAR}
-#: lattices and closed faces refuse a lower plate that slides
+#: methods in convection: lattices and closed faces refuse a lower plate that slides
 LAYER_RIDERS = {
     "grid": Rider(LAYER, FINER, price=1.5e-7, quick=2),
     "fixed-jittered-plates": Rider(LAYER, LAYER, seeds=2, price=1.2e-6),
@@ -66,7 +66,7 @@ LAYER_RIDERS["spam-less-static-50"] = LAYER_RIDERS["spam"]
 
 @dataclass(frozen=True, kw_only=True)
 class Ride(Case):
-    """A method in a scene. one_mass : its particles have one, and start as dense as the scene."""
+    """A method in a scene. one_mass : particles have one mass, and are placed by the scene's density."""
     name: str
     scene: Any
     method: str
@@ -77,7 +77,7 @@ class Ride(Case):
 
     @property
     def cost(self) -> float:
-        """A step takes a spacing over the speed of sound and half of the stream's."""
+        """Seconds, with 1 + |stream|/2 steps in a unit of time."""
         scene = self.scene
         steps = scene.time*(1 + float(np.abs(scene.wind).sum())/2)
         return 0.1 + self.price*scene.width*scene.L*steps
@@ -89,7 +89,7 @@ class Ride(Case):
 
     @property
     def key_columns(self) -> dict[str, Any]:
-        """That every row has."""
+        """Columns that every row has."""
         return {"scene": self.name, "method": self.method, "rows": self.scene.L, "stream": self.scene.stream}
 
     def ready(self) -> Ready:
@@ -98,12 +98,12 @@ class Ride(Case):
         return made._replace(start=made.start.reshape(len(made.start), -1))
 
     def steps(self, ready: Ready) -> int:
-        """To the end of the scene."""
+        """Number of steps to the end of the scene."""
         return ceil(self.scene.time/ready.dt)
 
 
 class Error(Ride):
-    """How far from the exact answer it ends."""
+    """Errors at the end against the exact answer; nan where the run diverges."""
 
     def run(self, report: Report, folder: Path) -> Outcome:
         ready = self.ready()
@@ -120,7 +120,7 @@ class Error(Ride):
 
 @dataclass(frozen=True, kw_only=True)
 class Seconds(Ride):
-    """CPU seconds of setting up, and of a step; `brief` : of all steps that are timed at once, about."""
+    """CPU seconds of setting up and of a step. brief : seconds of all steps timed together, about."""
     alone: ClassVar[bool] = True
     brief: float
 
@@ -155,7 +155,7 @@ def cases(size: str) -> list[Case]:
 
 
 def of_scene(size: str, name: str) -> Iterator[Ride]:
-    """All methods, streams, rows."""
+    """Runs of all methods, streams and rows in a scene."""
     riders, quick = LAYER_RIDERS if name == "convection" else RIDERS, size == "quick"
     for (method, rider), stream in product(riders.items(), QUICK if quick else STREAMS):
         chosen = variant(method)

@@ -1,4 +1,4 @@
-"""What the study streams shows and says."""
+"""Figure and claims of the study streams."""
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
@@ -44,7 +44,7 @@ def seconds(needed: pd.DataFrame, crossings: pd.DataFrame) -> Figure:
 
 
 def panel(axes: Axes, needed: pd.DataFrame, crossings: pd.DataFrame) -> None:
-    """A line a method, over streams one apart."""
+    """Draw a line for each method, over streams at equal distances."""
     for number, name in enumerate(METHODS):
         rows = needed[(needed.method == name) & needed.cpu_s.notna()].sort_values("stream")
         x, style = place(rows.stream.to_numpy()), look(number)
@@ -59,7 +59,7 @@ def panel(axes: Axes, needed: pd.DataFrame, crossings: pd.DataFrame) -> None:
 
 
 def place(streams: np.ndarray) -> np.ndarray:
-    """Along the axis."""
+    """Positions of streams along the axis."""
     return np.interp(streams, STREAMS, range(len(STREAMS)))
 
 
@@ -79,7 +79,7 @@ COUNTED = " or ".join(f"(scene == '{name}' and quantity == '{of}')" for name, (o
 
 
 def error(scene: str, quantity: str, method: str = MOVING, stream: float = 10.0, rows: int = 32) -> Value:
-    """Of one seed."""
+    """The error of the run with seed 1."""
     return one("runs", "error", scene=scene, quantity=quantity, method=method, stream=stream, rows=rows,
                seed=1)
 

@@ -1,7 +1,7 @@
 """Flows with exact answers, each in a stream that carries all of it along.
 
-Flows are told in boxes: a box is 1 high, the gas ideal, C_V = 1, density and temperature about 1. Errors are
-relative, in the frame of the stream.
+Flows are described in a box of height 1. The gas is ideal, C_V = 1, density and temperature are about 1.
+Errors are relative and in the frame of the stream.
 """
 from dataclasses import dataclass
 from functools import cache
@@ -25,17 +25,17 @@ from studies.front.observed import nusselt
 from studies.kit.csvfile import read
 from studies.kit.store import RESULTS
 
-ALONG = np.array([2.0, 1.0])/sqrt(5)        # of the stream: at an angle to rows of points
-CELLS = 256         # along each axis in which densities are summed
+ALONG = np.array([2.0, 1.0])/sqrt(5)        # direction of the stream: at an angle to rows of points
+CELLS = 256         # along each axis, in which densities are summed
 RA = 1e4
 
 
 @dataclass(frozen=True, kw_only=True)
 class Carried(Scene):
-    """A flow in a periodic box of L spacings; `stream` : over the `speed` of the flow, or of sound.
+    """A flow in a periodic box of L spacings. stream : its speed over `speed`, that of the flow or of sound.
 
-    Of a box 1 high: viscosity eta, conductivity k, how long it lasts, its start, (rho, v, T) at places
-    (n, 2). Fourier sums of so many `points` along each axis know its end.
+    In a box of height 1: viscosity eta, conductivity k, duration `lasts`, start(place) -> (rho, v, T) at
+    places (n, 2). The exact end is from Fourier sums with so many `points` along each axis.
     """
     L: int
     stream: float = 0.0
@@ -50,7 +50,7 @@ class Carried(Scene):
 
     @classmethod
     def end(cls, place: np.ndarray) -> Start:
-        """(rho, v, T) at the end, without stream."""
+        """Exact (rho, v, T) at the end, without stream."""
         return periodic.fields(periodic.solved(cls.start, cls.eta, cls.k, cls.lasts, cls.points), place)
 
     #: velocity of the stream (2,)
@@ -67,11 +67,11 @@ class Carried(Scene):
         return x, self.fields(x)
 
     def own(self, at: Fields) -> np.ndarray:
-        """Places at the end in the frame of the stream, in boxes."""
+        """Places at the end in the frame of the stream, in heights of the box."""
         return (at.x - self.wind*self.time)/self.L
 
     def errors(self, first: Fields, at: Fields) -> dict[str, float]:
-        """By quantity, from fields at the start and at the end: those of `quantities`."""
+        """Errors of `quantities`, from fields at the start and at the end."""
         rho, v, T = self.end(self.own(at))
         pairs = {"velocity": (at.v - self.wind - v, v), "temperature": (at.T - T, T - at.V@T/at.V.sum()),
                  "density": (at.rho - rho, rho - at.V@rho/at.V.sum())}
@@ -84,7 +84,7 @@ def apart(V: np.ndarray, wrong: np.ndarray, right: np.ndarray) -> float:
 
 
 def as_dense(scene: Carried, x: np.ndarray) -> np.ndarray:
-    """Places (n, 2) of even density moved to that of the start: along x by its means, then each along y."""
+    """Move places (n, 2) from uniform density to that of the start: along x by means over y, then along y."""
     box, ends = np.array([scene.width, scene.L]), np.linspace(-0.5, 0.5, CELLS + 1)
     axis = ends[:-1] + 0.5/CELLS
     rho, *_ = scene.fields(box*np.stack(np.meshgrid(axis, axis, indexing="ij"), axis=-1).reshape(-1, 2))
@@ -98,7 +98,7 @@ def as_dense(scene: Carried, x: np.ndarray) -> np.ndarray:
 
 
 class DecayingVortex(Carried):
-    """Taylor and Green's, Mach number 0.05, Re 100, until velocities are a factor e smaller."""
+    """Taylor-Green vortex, Mach number 0.05, Re 100, until velocities are smaller by a factor e."""
     flow = Vortex(0.05, 1)
     speed, lasts = flow.speed, flow.time
     eta = k = flow.eta
@@ -110,7 +110,7 @@ class DecayingVortex(Carried):
 
 
 class Spot(Carried):
-    """Gas of even pressure, half as hot again in the middle: spreading adds 28 % to its squared width."""
+    """Spot of hot gas, T about 1.5, at uniform pressure: conduction adds 28 % to its squared width."""
     quantities = ("temperature",)
     eta = k = 0.004
     lasts = 1/SOUND
@@ -122,7 +122,7 @@ class Spot(Carried):
 
 
 class Contact(Carried):
-    """Gas of even pressure, in one half twice as dense as in the other; it conducts little."""
+    """Gas at uniform pressure, twice as dense in one half as in the other, with little conduction."""
     quantities = ("density",)
     points = 49
     eta = k = 0.0005
@@ -135,7 +135,7 @@ class Contact(Carried):
 
 
 class Expansion(Carried):
-    """A slab of gas of twice the mean density, which expands to half of its own."""
+    """A slab of gas with twice the mean density, which expands to half of that density."""
     quantities = ("density", "velocity")
     eta = k = 0.01
     lasts = 0.25/SOUND
@@ -147,7 +147,7 @@ class Expansion(Carried):
 
 
 class Mixing(Carried):
-    """A stripe of hotter gas at even pressure that vortices wind up: what is left of it, how much of that."""
+    """A stripe of hotter gas, at the pressure of vortices that wind it up."""
     points = 57
     flow = Vortex(0.1, 1)
     speed, lasts = flow.speed, 1/flow.speed
@@ -159,7 +159,7 @@ class Mixing(Carried):
         return rho/stripe, Mixing.flow.velocity(place), rho*stripe
 
     def errors(self, first: Fields, at: Fields) -> dict[str, float]:
-        """Of entropy less its mean."""
+        """Errors of the entropy less its mean, and of the variance of entropy."""
         rho, _, T = self.end(self.own(at))
         m = at.rho*at.V/(at.rho@at.V)
         has, should = (s - m@s for s in (np.log(at.T/at.rho), np.log(T/rho)))
@@ -167,7 +167,7 @@ class Mixing(Carried):
 
 
 class Gresho(Carried):
-    """A vortex of even density that its pressure holds together, for a turn where it is fastest; Re 2000."""
+    """Vortex of uniform density balanced by its pressure, Re 2000, for one turn where it is fastest."""
     speed = 0.1*SOUND
     eta = k = speed/2000
     lasts = 0.4*pi/speed
@@ -183,7 +183,7 @@ class Gresho(Carried):
         return np.ones(len(v)), v, np.ones(len(v))
 
     def errors(self, first: Fields, at: Fields) -> dict[str, float]:
-        """And of the angular momentum."""
+        """Errors of `quantities`, and of the angular momentum."""
         own, m = self.own(at), at.rho*at.V
         x, y = (own - np.rint(own)).T
         has, should = (m@(x*v[:, 1] - y*v[:, 0]) for v in (at.v - self.wind, self.end(own)[1]))
@@ -191,8 +191,8 @@ class Gresho(Carried):
 
 
 class Shear(Carried):
-    """u = U sin ky, one wave high, Mach number 0.05, Re 500, and its fastest wave, twice as long, which grows
-    by linear theory, exact but for squares of the Mach number and of the wave."""
+    """Shear flow u = U sin ky, Mach number 0.05, Re 500, and its fastest growing wave, twice as long.
+    Linear theory of the growth is exact but for squares of the Mach number and of the wave."""
     speed = 0.05*SOUND
     eta = k = speed/500
     lasts = 8/(2*pi*speed)
@@ -204,20 +204,20 @@ class Shear(Carried):
         return np.ones(len(v)), v, np.ones(len(v))
 
     def errors(self, first: Fields, at: Fields) -> dict[str, float]:
-        """Of the growth; and of the wave, its place included."""
+        """Errors of the growth rate, and of the complex amplitude of the wave."""
         exact = viscous_growth(self.speed, 2*pi, pi, self.eta, self.lasts)
         ratio = self.wave(at, self.time)/self.wave(first, 0.0)
         return {"growth": float(np.log(abs(ratio))/np.log(exact)) - 1, "wave": float(abs(ratio/exact - 1))}
 
     def wave(self, at: Fields, time: float) -> complex:
-        """The part of v_y that goes as exp(i pi x/L) in the frame of the stream."""
+        """Complex amplitude of exp(i pi x/L) in v_y, in the frame of the stream."""
         x, v = (at.x - self.wind*time)[:, 0], at.v[:, 1] - self.wind[1]
         return complex(at.V@(v*np.exp(-1j*pi*x/self.L))/at.V.sum())
 
 
 @cache
 def limit(column: str) -> float:
-    """Of the grid of the study rb, extrapolated."""
+    """A column of the grid of the study rb, extrapolated."""
     rows = read(RESULTS/"rb"/"means.csv").query(
         "method == 'compressible' and variant == 'flux-form' and eos == 'ideal' and transport == 'const-eta' "
         "and sides == 'periodic' and ra == @RA and pr == 1 and resolution == inf")
@@ -225,8 +225,8 @@ def limit(column: str) -> float:
 
 
 class Convection(Carried):
-    """Rayleigh and Benard's between plates that slide with the stream; its speed is sqrt 2 times the rms one,
-    as the fastest of a vortex is."""
+    """Rayleigh-Benard convection between plates that slide with the stream. `speed` is sqrt 2 times the rms
+    velocity, as the largest velocity of a vortex is."""
     layer: ClassVar[Any] = property(lambda self: RayleighBenard(ra=RA, L=float(self.L)))
     speed: ClassVar[Any] = property(lambda self: 2*sqrt(limit("ke")))
     wind: ClassVar[Any] = property(lambda self: np.array([self.stream*self.speed, 0.0]))

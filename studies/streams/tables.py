@@ -1,6 +1,6 @@
-"""Tables of the study streams, and what follows: seconds to an error of 1 %, and where moving points win.
+"""Tables of the study streams, and derived rows: seconds to an error of 1 %, and where moving points win.
 
-Errors are relative; `_err`: half of the 95 % interval; low, high: ends of one.
+Errors are relative; `_err`: half of the 95 % interval; low, high: its ends.
 """
 from collections.abc import Iterator
 from typing import Any
@@ -38,8 +38,8 @@ TABLES = (RUNS, SECONDS, POINTS, NEEDED, CROSSINGS)
 WANTED = 0.01
 MOVING = "moving-delaunay"
 STILL = ("grid", "fixed-lattice-h1.2", "fixed-jittered-delaunay", "fixed-jittered-plates")
-SANE = 0.2          # an error beyond which no order holds
-FARTHER = 4.0       # times the rows that ran: so far errors are followed by their order
+SANE = 0.2          # error beyond which no order is used
+FARTHER = 4.0       # times the rows that ran: so far errors are extrapolated by their order
 
 
 def derive(tables: Tables) -> Rows:
@@ -54,7 +54,7 @@ def derive(tables: Tables) -> Rows:
 
 
 def means(runs: pd.DataFrame, seconds: pd.DataFrame) -> Iterator[Row]:
-    """Over seeds, with seconds."""
+    """Errors and seconds of runs, means over seeds."""
     rows = runs.merge(seconds, on=list(SECONDS.key))
     rows = rows.assign(cpu_s=rows.setup_s + rows.steps*rows.step_s, error=rows.error.abs(),
                        cpu_s_err=np.hypot(rows.setup_s_err, rows.steps*rows.step_s_err))
@@ -63,7 +63,7 @@ def means(runs: pd.DataFrame, seconds: pd.DataFrame) -> Iterator[Row]:
 
 
 def needed(group: pd.DataFrame) -> Row:
-    """Where errors of rising rows come below 1 % and stay there; beyond the last by the order of two."""
+    """Cost where errors at rising rows fall below 1 % for good, or would by the order of the last two."""
     least, below = group.error.min(), int((group.error <= WANTED)[::-1].cummin().sum())
     if below == len(group):
         first = group.iloc[0]
@@ -84,7 +84,7 @@ def needed(group: pd.DataFrame) -> Row:
 
 
 def crossings(needs: pd.DataFrame) -> Iterator[Row]:
-    """Of each scene, against each that stands still."""
+    """Crossings in each scene, against each method that stands still."""
     for (scene, quantity), here in groups(needs, ["scene", "quantity"]):
         moving = here[here.method == MOVING]
         for rival in STILL:
@@ -95,10 +95,10 @@ def crossings(needs: pd.DataFrame) -> Iterator[Row]:
 
 
 def crossing(both: pd.DataFrame) -> Row:
-    """The stream from which on the seconds of moving points are fewer, for good; as much: no interval of a
-    difference leaves out zero.
+    """The stream from which on moving points take fewer seconds for good; as much: at no stream do the two
+    differ by more than their interval.
 
-    Seconds of who does not come to 1 % are infinite: of a crossing there the two streams around are known.
+    A method that does not reach 1 % takes infinite seconds: a crossing is then between two known streams.
     """
     own, other = (both[name].fillna(np.inf) for name in ("cpu_s_moving", "cpu_s"))
     with np.errstate(divide="ignore"):
@@ -117,7 +117,7 @@ def crossing(both: pd.DataFrame) -> Row:
 
 
 def zero(pair: pd.Series, half: pd.Series) -> Row:
-    """Of logarithms (2,) at two streams, between which they are linear in the stream, from 0.1 on its log."""
+    """Zero of logarithms (2,) between two streams, linear in the stream, or in its logarithm from 0.1 on."""
     first, last = pair.index
     if not np.isfinite(pair).all():
         return {"stream": np.nan, "low": first, "high": last}
