@@ -108,8 +108,7 @@ def power_law(x: Numbers, y: Numbers, err: Numbers | None = None) -> Fit:
 def crossing(pair: pd.DataFrame, column: str, level: float) -> tuple[float, float]:
     """Cost (``column``) at which the error is ``level``, between two rows, and the half width of ln cost.
 
-    ln cost = (1 - s) ln cost_0 + s ln cost_1, s = ln(error_0/level)/ln(error_0/error_1). The half width
-    follows from those of both costs and both errors.
+    ln cost = (1 - s) ln cost_0 + s ln cost_1, s = ln(error_0/level)/ln(error_0/error_1); all are uncertain.
     """
     (first, last), (low, high) = np.log(pair.error), np.log(pair[column])
     s = (first - np.log(level))/(first - last)

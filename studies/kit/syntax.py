@@ -1,7 +1,6 @@
 """Syntax of our modules: statements that define names, meanings of names, and what statements register.
 
-Definitions are read without docstrings, comments, annotations of functions and names of modules (reader.py):
-none of these changes a result.
+Docstrings, comments, annotations of functions and names of modules are left out: none changes a result.
 """
 import ast
 from collections.abc import Iterator, Sequence
