@@ -10,7 +10,7 @@ from particles.threads import Threads
 from studies.build.setting import Ready
 from studies.front.solving import named, prepared
 
-#: member -> its form
+#: member -> its form, in messages
 MEMBERS = {"names": "names, of the rows of a state", "eos": "eos, the scene's",
            "fields": "fields(state), which gives Fields(x, v, rho, T, V)",
            "start": "start(n, threads), which gives its sums: inherit OwnRates"}
@@ -22,7 +22,7 @@ class Breach(TypeError):
 
 
 def contract(scene: Any, method: Any) -> dict[str, float]:
-    """No numbers, if the method meets the contract. Raises Breach: it does not."""
+    """Check a method in a scene; return no numbers. Raises Breach: it does not meet the contract."""
     chosen = named(method)
     if isinstance(chosen, type) and not hasattr(chosen, "ready"):
         check_members(chosen(scene), "state")

@@ -25,7 +25,7 @@ PAGE = Environment(autoescape=True).from_string(Path(__file__).with_suffix(".htm
 
 
 def write_page(name: str, takes: Sequence[Take], out: Path) -> Path:
-    """Write judge-NAME.html and judge-NAME.csv into a folder; the path of the page."""
+    """Write judge-NAME.html and judge-NAME.csv into a folder; return the path of the page."""
     picture, path = beside(name, takes), out/f"judge-{name}.html"
     image, head = io.BytesIO(), [f"commit {commit()}", versions(), cpu(), now()]
     if picture is not None:

@@ -123,7 +123,7 @@ def parameters(value: Any) -> Any:
         return [parameters(item) for item in value]
     if hasattr(value, "__qualname__") and "<" not in value.__qualname__:
         package = value.__module__.partition(".")[0]
-        ours = package in (*PACKAGES, "__main__", "__mp_main__")    # the key has its code
+        ours = package in (*PACKAGES, "__main__", "__mp_main__")    # the key includes its code
         return {"": value.__qualname__} | ({} if ours else {"module": value.__module__})
     raise TypeError(f"a case cannot hold {value!r}: use numbers, texts, tuples, NamedTuples, dataclasses, "
                     "enums, or functions and classes of a module")
@@ -155,7 +155,7 @@ def place_of(kind: Any, own: Path | None, part: str = WHOLE) -> Place | None:
 
 
 def kinds(value: Any) -> Iterator[Any]:
-    """Types of all parameters, nested ones included; of functions and classes they themselves."""
+    """Types of all parameters, nested ones included; a function or class stands for itself."""
     yield value if hasattr(value, "__qualname__") else type(value)
     fields = fields_of(value)
     items = value if fields is None else list(fields.values())

@@ -243,7 +243,7 @@ def judged(claim: Claim, tables: Tables, study: str = "") -> Row:
         value, err = map(float, claim.value(tables))
     except CannotTell as why:
         return {**unknown, "reason": str(why)}
-    except (OtherTable, KeyError, AttributeError, NameError) as error:      # any of these is a missing column
+    except (OtherTable, KeyError, AttributeError, NameError) as error:      # raised for a missing column
         words = f"study {study}, claim {claim.id}, {claim.value}: {error.args[0]}; correct the claim"
         raise WrongQuestion(words) from error
     except Exception as error:

@@ -37,7 +37,7 @@ class Cancelled(BaseException):
 
 
 def check_scheduler(address: str) -> str:
-    """The address itself. Raises ValueError: it is not the address of a scheduler."""
+    """Return the address. Raises ValueError: it is not the address of a scheduler."""
     if address and not ADDRESS.fullmatch(address):
         raise ValueError(f"SCHEDULER={address} is no address of a Dask scheduler: give tcp://host:port, or "
                          "nothing to compute on this machine")

@@ -1,4 +1,4 @@
-"""Loop that distributes cases and stores their outcomes; a transport runs the cases somewhere.
+"""Loop that distributes cases and stores their outcomes; a transport determines where the cases run.
 
 Two transports are defined here: this process, and workers on this machine with one thread each.
 """
@@ -67,7 +67,7 @@ def between(fraction: float) -> float:
 
 def dispatch(cases: Sequence[Case], folder: Path, name: str,
              connect: Callable[[Bar], "Transport"]) -> list[Failure]:
-    """Run cases in their order and store their outcomes; the failures. Cases ``alone`` run last, one by one.
+    """Run cases in their order, those ``alone`` last and one by one; store outcomes and return failures.
 
     Each of the two groups has its own transport, so that times are measured in fresh processes.
     Raises KeyboardInterrupt, CannotRun: running cases are ended, finished ones are kept.
@@ -103,7 +103,7 @@ def drain(transport: "Transport", cases: Sequence[Case], todo: deque[int], limit
 
 
 class Transport(Protocol):
-    """Runs cases, identified by numbers, somewhere, and returns their outcomes."""
+    """Interface to the place where cases run: takes cases with their numbers and returns outcomes."""
 
     def places(self) -> int: ...                                    # how many cases may run at once now
     def submit(self, number: int, case: Case) -> None: ...          # begin a case; a place is free

@@ -61,7 +61,7 @@ class Study:
         check_once("claims", (claim.id for claim in self.claims))
 
     def run(self, size: str, *, out: Path | None = None, cases: Sequence[Case] = (), **more: Any) -> Tables:
-        """Run the cases; the tables, derived rows included. more : fields of `Sweep`, such as ``workers``.
+        """Run the cases; return the tables with derived rows. more : fields of `Sweep`, such as workers.
 
         cases : trial cases, which run instead of those of the study.
 
@@ -81,7 +81,7 @@ class Study:
         return tables
 
     def draw(self, out: Path = RESULTS) -> list[Path]:
-        """Draw and save the figures from the tables on disk; their files."""
+        """Draw and save the figures from the tables on disk; return their files."""
         pages = self.figures(load(self.tables, self.name, out))
         paths = {name: out/self.name/f"{name}.png" for name in pages}
         for name, page in pages.items():
@@ -230,6 +230,6 @@ def shown(path: Path) -> Path:
 
 
 def say(text: str, code: int = 0) -> int:
-    """Print a message for the user to stderr; ``code``, the exit status."""
+    """Print a message for the user to stderr; return the exit status ``code``."""
     print(text, file=sys.stderr, flush=True)
     return code

@@ -52,7 +52,7 @@ class Sweep:
         return self.out/"raw"/self.study
 
     def run(self, cases: Iterable[Case]) -> tuple[Tables, CasesFailed | None]:
-        """Run the unfinished cases, longest first; merge all rows into the tables; an error if some failed.
+        """Run the unfinished cases, longest first; return tables with all rows, and CasesFailed or None.
 
         Raises KeyboardInterrupt, CannotRun: finished cases are kept, the tables are unchanged.
         """
@@ -65,7 +65,7 @@ class Sweep:
         return tables, None
 
     def run_missing(self, wanted: Sequence[Case]) -> list[Failure]:
-        """Run the cases that are not stored; the failures."""
+        """Run the cases that are not stored; return the failures."""
         missing = [case for case in wanted if kept(case, self.folder) is None]
         missing.sort(key=lambda case: -case.cost)
         try:
@@ -97,7 +97,7 @@ class Sweep:
         return rows
 
     def put(self, rows: Rows, derived: bool = False) -> Tables:
-        """Merge rows into the tables; all tables that exist.
+        """Merge rows into the tables; return all tables that exist.
 
         When ``only`` some cases ran, derived rows that did not change keep their size and commit, as the
         cases that they derive from have not run.
@@ -118,7 +118,7 @@ class Sweep:
 
     @property
     def command(self) -> str:
-        """Command that makes the tables. It names a cluster, whose CPUs the head of a table does not have."""
+        """Command that makes the tables; names a cluster, as the head of a table does not have its CPUs."""
         there = " SCHEDULER=tcp://..."*bool(self.scheduler)
         if self.only:
             return f"python -m studies {self.study} --size {self.size} --only {shlex.quote(self.only)}{there}"

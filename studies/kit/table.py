@@ -72,7 +72,7 @@ def groups(frame: pd.DataFrame, by: str | list[str]) -> list[tuple[Any, pd.DataF
 
 
 def check_size(size: str) -> str:
-    """``size`` itself. Raises ValueError: it is none of SIZES."""
+    """Return ``size``. Raises ValueError: it is none of SIZES."""
     if size not in SIZES:
         raise ValueError(f"unknown size {size!r}: choose one of {', '.join(SIZES)}, as in SIZE=quick")
     return size
@@ -80,7 +80,7 @@ def check_size(size: str) -> str:
 
 def merge(path: Path, table: Table, rows: Sequence[Row], *, size: str,
           command: str = "") -> tuple[pd.DataFrame, int]:
-    """Merge ``rows`` into the CSV at ``path``; the merged table, and how many better rows were kept.
+    """Merge ``rows`` into the CSV at ``path``; return the table and the number of better rows kept.
 
     Without rows an existing table stays as it is, and a missing one is written empty.
     Raises ValueError: rows lack key columns, have unknown columns, or two of them have the same key.

@@ -43,7 +43,7 @@ class Account(NamedTuple):
 
 
 def write_equations(out: Path) -> Path:
-    """Write equations.md from claims.csv, all or nothing; its path. Raises NoReport: as `text`."""
+    """Write equations.md from claims.csv, all or nothing; return its path. Raises NoReport: as `text`."""
     path = out/"equations.md"
     write_atomic(path, text(claims_of(out), lines(), out))
     return path

@@ -227,7 +227,7 @@ CAPTIONS = {
 
 
 def make(name: str, grids: Sequence[Flow], path: Path) -> dict[str, Any]:
-    """Run, draw and write one film; the row of films.csv."""
+    """Run, draw and write one film; return its row of films.csv."""
     scene = RayleighBenard(ra=RA, L=float(ROWS))
     dots = points(name, scene, TIMES)
     titles = f"{name}, {ROWS} rows", f"grid, {GRID_ROWS} rows"
@@ -237,7 +237,7 @@ def make(name: str, grids: Sequence[Flow], path: Path) -> dict[str, Any]:
 
 
 def make_all(out: Path) -> list[Path]:
-    """Make all films, and enter each into films.csv as soon as it is written; their files."""
+    """Make all films, entering each into films.csv as soon as it is written; return their files."""
     folder = out/"films"
     grids = list(grid(RayleighBenard(ra=RA), GRID_ROWS, TIMES))
     paths = {name: folder/f"{name}.mp4" for name in CAPTIONS}

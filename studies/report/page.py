@@ -37,7 +37,7 @@ FILMS = Table.of("films", "method", "caption ra rows grid_rows t_end last_ke las
 
 
 def write_page(out: Path) -> Path:
-    """Write index.html, all or nothing; its path.
+    """Write index.html, all or nothing; return its path.
 
     Raises NoReport: a source is missing or broken, or the page too large; an older page stays as it is.
     """

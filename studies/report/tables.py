@@ -47,7 +47,7 @@ HEAD = Path(__file__).parent/"sentences"/"tables.md"
 
 
 def write_tables(out: Path) -> Path:
-    """Write tables.md into a folder; its path."""
+    """Write tables.md into a folder; return its path."""
     path = out/"tables.md"
     write_atomic(path, text())
     return path

@@ -110,7 +110,7 @@ def examples(out: Path) -> Iterator[Example]:
 
 
 def write_gallery(out: Path) -> list[Path]:
-    """Write small copies of the pictures of examples in out/own; their paths. Raises NoReport: no picture."""
+    """Write small copies of examples' pictures in out/own; return them. Raises NoReport: no picture."""
     drawn = [out/"own"/f"{path.stem}.png" for path in scripts()]
     there = [path for path in drawn if path.exists()]
     if not there:
@@ -124,7 +124,7 @@ def scripts() -> list[Path]:
 
 
 def smaller(path: Path, folder: Path) -> Path:
-    """Write a smaller copy of a picture into another folder; its path."""
+    """Write a smaller copy of a picture into another folder; return its path."""
     folder.mkdir(exist_ok=True)
     picture = Image.open(path).convert("RGB")
     picture.thumbnail((WIDTH, WIDTH))
