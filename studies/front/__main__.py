@@ -18,7 +18,7 @@ OWN = RESULTS/"own"         # not committed
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """The command line; 0, 1 where a run diverged or words are wrong, 130 if interrupted."""
+    """Command line; returns 0, 1 (a run diverged or an argument is wrong) or 130 (interrupted)."""
     parser = argparse.ArgumentParser(prog="python -m studies.front", description=__doc__)
     parser.add_argument("scene", help=", ".join(SCENES))
     parser.add_argument("methods", nargs="+", help="such as grid, fixed-lattice, moving, spam")
@@ -30,7 +30,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--out", type=Path, default=OWN, help="folder of the picture (default: results/own)")
     words = parsed(parser, arguments)
     path = words.out/f"{words.scene}-{'-'.join(words.methods)}.png"
-    resume = path.with_name(f"{path.stem}-{digest(repr(words))[:8]}.run.h5")    # of these words alone
+    resume = path.with_name(f"{path.stem}-{digest(repr(words))[:8]}.run.h5")    # of these arguments alone
     try:
         done = solution(words, resume)
         print(done)
@@ -46,7 +46,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def number(words: str) -> tuple[str, float]:
-    """A number of a scene as it is typed."""
+    """(name, value) of a scene's number typed as NAME=VALUE."""
     name, _, value = words.partition("=")
     with suppress(ValueError):
         if name not in signature(solve).parameters:
@@ -55,7 +55,7 @@ def number(words: str) -> tuple[str, float]:
 
 
 def solution(words: argparse.Namespace, resume: Path) -> Any:
-    """Of one method with one number of rows, which can be resumed; else a comparison."""
+    """Solution of one method with one number of rows, which can be resumed; else a comparison."""
     more = {**dict(words.numbers), "seed": words.seed, "time": words.time}
     if len(words.methods) == len(words.rows) == 1:
         return solve(words.scene, words.methods[0], rows=words.rows[0], resume=resume, **more)

@@ -1,8 +1,8 @@
-"""What a run of any method records in a scene, and the numbers that come of it.
+"""Quantities that a run of any method records in a scene, and the numbers that follow from them.
 
-K is the kinetic energy per mass, of smooth particles that of the smoothed field; Nu is the heat that passes
-through the fluid over what conduction alone would carry. Where a scene knows its answer, `error` is the root
-of the mean square difference from it, over that of its own departure from rest.
+K is the kinetic energy per mass, for smooth particles that of the smoothed field; Nu is the heat transport
+through the fluid over that of conduction alone. If a scene has an exact answer, `error` is the root mean
+square difference from it, over the root mean square difference of a fluid at rest from it.
 """
 from collections.abc import Callable
 from functools import partial
@@ -23,23 +23,23 @@ from studies.build.scenes import Slab
 from studies.kit.fits import line
 from studies.kit.stats import Measured, settled
 
-LATE = 0.6          # of a run: averages are taken after this part of it
-STEADY = 1e-3       # of K: what changes less in the last two fifths is steady, and its last value counts
-FEW = 20            # samples, of which each half has an error of its own
-AGREE = 0.3         # of the mean: halves that differ by more are no steady state
+LATE = 0.6          # fraction of a run after which averages begin
+STEADY = 1e-3       # relative change in the last two fifths of a run, below which a series is steady
+FEW = 20            # least number of samples for an error from their two halves
+AGREE = 0.3         # fraction of the mean: halves that differ by more are no steady state
 
 
 def heating(scene: Any) -> HeatPath | None:
-    """None where no two plates have different temperatures."""
+    """Path of the heat between two plates; None if no two plates differ in temperature."""
     if isinstance(scene, RayleighBenard):
         return None if isinstance(scene, Slab) else HeatPath(1, scene.dT, scene.L)
     return getattr(scene, "heating", None)
 
 
 def nusselt(at: Fields, scene: Any, heat: HeatPath) -> float:
-    """1 + <rho v (e + P/rho + v^2/2 + g y)>/(k dT/length), along the heat; friction's share is left out.
+    """1 + <rho v (e + P/rho + v^2/2 + g y)>/(k dT/length), v along the heat; work of friction is left out.
 
-    Of steady flows and constant conductivity, where what plates conduct is k dT/length on average.
+    Holds for steady flows and constant conductivity, where mean conduction is k dT/length.
     """
     e = energy(scene.eos, at.rho, at.T)
     head = e + pressure(scene.eos, at.rho, e)/at.rho + (at.v**2).sum(axis=1)/2 + scene.g*at.x[:, 1]
@@ -48,10 +48,10 @@ def nusselt(at: Fields, scene: Any, heat: HeatPath) -> float:
 
 
 def recorded(scene: Any, variant: Any) -> dict[str, Callable]:
-    """Quantities of a run by their names in its history: K, Nu where heat passes, and the scene's own.
+    """Quantities of a run by their names in its history: K, Nu if heat passes, and the scene's own.
 
-    Nu of convection is that of the variant's own series: of heat through the volume of smooth particles, or
-    through the plates.
+    Nu of convection is from the variant's own series: the heat transport in the volume of smooth particles,
+    or through the plates.
     """
     own, heat, of_fields = getattr(variant, "series", {}), heating(scene), dict(quantities(scene))
     record: dict[str, Callable] = {"K": kinetic}
@@ -69,7 +69,7 @@ def recorded(scene: Any, variant: Any) -> dict[str, Callable]:
 
 
 def seen(method: Any, state: np.ndarray) -> Fields:
-    """Fields at the end; of smooth particles the smoothed ones, as particles themselves tremble."""
+    """Fields of a final state; for smooth particles the smoothed fields, as particles have noise."""
     if not isinstance(method, Spam):
         fields: Fields = method.fields(state)
         return fields
@@ -79,7 +79,7 @@ def seen(method: Any, state: np.ndarray) -> Fields:
 
 
 def numbers(scene: Any, history: pd.DataFrame, at: Fields) -> dict[str, Measured]:
-    """K and Nu of the steady end with their errors; `error` and rates where the scene knows them."""
+    """K and Nu at the end with their errors; `error` if the scene has an answer, growth if it has a wave."""
     at_last = at_end if heating(scene) else last
     found = {name: at_last(history[name].to_numpy(float)) for name in ("K", "K_particles", "Nu")
              if name in history}
@@ -92,14 +92,14 @@ def numbers(scene: Any, history: pd.DataFrame, at: Fields) -> dict[str, Measured
 
 
 def last(series: np.ndarray) -> Measured:
-    """The last value, of what is not steady."""
+    """Last value of a series that is not steady."""
     return Measured(float(series[-1]))
 
 
 def at_end(series: np.ndarray) -> Measured:
-    """The last value of what is steady, else the mean over the last two fifths, with its error.
+    """Last value of a steady series, else the mean over the last two fifths of the run, with its error.
 
-    Few samples, of a short run, have their whole range for an error.
+    For fewer than FEW samples, of a short run, the error is their whole range.
     """
     late = series[int(LATE*len(series)):]
     if np.ptp(late) <= STEADY*abs(late[-1]):
@@ -108,7 +108,7 @@ def at_end(series: np.ndarray) -> Measured:
 
 
 def apart(at: Fields, exact: dict[str, np.ndarray]) -> float:
-    """Root of the mean square over the volume of what differs from the answer."""
+    """Root mean square over the volume of the difference from the exact answer."""
     have = {"rho": at.rho, "vx": at.v[:, 0], "vy": at.v[:, 1], "T": at.T}
     wrong = sum(at.V@(have[name] - value)**2 for name, value in exact.items())
     return float(np.sqrt(wrong/at.V.sum()))

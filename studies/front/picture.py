@@ -1,4 +1,4 @@
-"""Solutions in pictures: fields at the end and the history of one; flows and costs of several."""
+"""Figures of one solution (final fields, history) and of a comparison (flows, numbers against cost)."""
 from pathlib import Path
 from typing import Any
 
@@ -11,13 +11,13 @@ from matplotlib.tri import LinearTriInterpolator, Triangulation
 from studies.build.answers import answer
 from studies.kit.figure import errorbar, figure, look, numbered, save
 
-ARROWS = 11         # over the height
-LONG = 3.0          # times as long as wide, or half as wide as high: fields along a line say more than maps
+ARROWS = 11         # number over the height
+LONG = 3.0          # width/height from which on (also up to 1/2) fields are drawn along a line, not as a map
 NAMES = {"rho": "density", "vx": "velocity $v_x$", "T": "temperature"}
 
 
 def picture(solution: Any, path: str | Path | None = None) -> Figure:
-    """The figure, and its PNG if a path is given."""
+    """Figure of a solution, written as PNG if a path is given."""
     many = len(solution.history) > 1
     page, axes = figure(1, 1 + many, width=5.2, squeeze=False)
     flow(axes[0, 0], solution)
@@ -28,7 +28,7 @@ def picture(solution: Any, path: str | Path | None = None) -> Figure:
 
 
 def pictures(comparison: Any, path: str | Path | None = None) -> Figure:
-    """Flows of the finest resolution above; each number against the cost below."""
+    """Flows at the finest resolution above, numbers against cost below. Raises ValueError: no solution."""
     if not comparison.solutions:
         raise ValueError("every run diverged: there is nothing to draw; take more rows or another method")
     by_rows = sorted(comparison.solutions, key=lambda one: one.rows)
@@ -46,7 +46,7 @@ def pictures(comparison: Any, path: str | Path | None = None) -> Figure:
 
 
 def written(page: Figure, path: str | Path | None) -> Figure:
-    """The figure, as PNG too if a path is given."""
+    """The figure, written as PNG if a path is given."""
     if path is not None:
         page.draw_without_rendering()       # ticks may change with the layout, which then has to follow
         save(page, Path(path))
@@ -54,7 +54,7 @@ def written(page: Figure, path: str | Path | None) -> Figure:
 
 
 def flow(axes: Axes, solution: Any) -> None:
-    """A map of the fields, or what they are along a strip."""
+    """Draw a map of the fields, or in a long strip the fields along it."""
     aspect = solution.scene.width/solution.scene.L
     if 1/2 < aspect < LONG:
         mapped(axes, solution.scene, solution.fields())
@@ -63,7 +63,7 @@ def flow(axes: Axes, solution: Any) -> None:
 
 
 def mapped(axes: Axes, scene: Any, at: pd.DataFrame) -> None:
-    """Colours: temperature, or density where that changes more; arrows: velocity."""
+    """Draw temperature (or density, if it varies more) as colours, velocity as arrows."""
     L, shown = scene.L, "T" if np.ptp(at["T"]) > np.ptp(at["rho"]) else "rho"
     mesh = Triangulation(at["x"]/L, at["y"]/L)
     colours = axes.tripcolor(mesh, at[shown], shading="gouraud", cmap="cividis")
@@ -78,7 +78,7 @@ def mapped(axes: Axes, scene: Any, at: pd.DataFrame) -> None:
 
 
 def along(axes: Axes, solution: Any, axis: str) -> None:
-    """Every point's fields against one coordinate, and the exact answer, where it is known, in black."""
+    """Plot every point's fields against one coordinate, and the exact answer, if known, in black."""
     at = solution.fields().sort_values(axis)
     exact = answer(solution.scene, at[["x", "y"]].to_numpy())
     for number, name in enumerate(exact or ("rho", "vx", "T")):
@@ -91,7 +91,7 @@ def along(axes: Axes, solution: Any, axis: str) -> None:
 
 
 def past(axes: Axes, history: pd.DataFrame) -> None:
-    """K against time, and Nu where heat passes."""
+    """Plot K against time, and Nu if heat passes."""
     axes.plot(history["t"], history["K"], marker="", label="K")
     axes.set(xlabel="time, in units of the scene", ylabel="K", ylim=(0, None))
     if "Nu" in history:
@@ -102,7 +102,7 @@ def past(axes: Axes, history: pd.DataFrame) -> None:
 
 
 def against_cost(axes: Axes, table: pd.DataFrame, name: str) -> None:
-    """One number of all methods, with its errors, against seconds of CPU; points carry their rows."""
+    """Plot one number of all methods, with errors, against CPU seconds; points are labelled with rows."""
     for number, (method, rows) in enumerate(table.groupby("method", sort=False)):
         errorbar(axes, rows["cpu_s"], rows[name], rows[f"{name}_err"], number=number, label=str(method),
                  linestyle=look(number)["linestyle"])

@@ -1,10 +1,10 @@
-"""Solvers that need no steps in time of ours: Newton's method on two equations, py-pde, linear theory.
+"""Reference solvers without our time stepping: Newton's method for two fluids, py-pde, linear theory.
 
-Each takes the layer heated from below, by name or as a `Domain`, and gives parts of a `Solution`. All but
-py-pde and spectral-gas solve the Boussinesq fluid that a gas is nearest to. In a layer of gas the adiabatic
-gradient g/c_P takes part of dT: the share s = 1 - g L/(c_P dT) is left to convection. Heat spreads at
-constant pressure, gamma times slower than k/(rho C_V). So Ra is s gamma Ra, Pr is gamma Pr, K = s K' and
-Nu - 1 = s (Nu' - 1) of its K', Nu', good to 5 % at dT = 1.
+Each takes the layer heated from below, by name or as a `Domain`, and returns parts of a `Solution`. All but
+py-pde and spectral-gas solve the Boussinesq fluid nearest to the gas. Of the temperature difference of a
+layer of gas only the share s = 1 - g L/(c_P dT), beyond the adiabatic gradient g/c_P, drives convection. Heat
+diffuses at constant pressure, gamma times slower than k/(rho C_V). So the Boussinesq fluid has Ra' = s gamma
+Ra, Pr' = gamma Pr, and the gas has K = s K', Nu - 1 = s (Nu' - 1), good to 5 % at dT = 1.
 """
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -34,7 +34,7 @@ NO_HISTORY = pd.DataFrame({"t": [0.0]})
 
 
 def solved(name: str, scene: Any) -> Parts:
-    """By the reference of this name. Raises ValueError: it solves no such scene."""
+    """Parts of a solution by the named reference. Raises ValueError: it does not solve this scene."""
     if not isinstance(scene, (RayleighBenard, Domain)) or isinstance(scene, Slab):
         raise ValueError(f"{name} solves Rayleigh-Benard convection, not {type(scene).__name__}: take grid")
     odd = no_still_layer(scene)
@@ -60,7 +60,7 @@ class Weighted(RayleighBenard):
 
 
 def weighted(box: Domain) -> Weighted:
-    """A box that is a layer heated from below: its free-fall velocity and viscous time are known then."""
+    """A layer from a box heated from below: it has a free-fall velocity and a viscous time."""
     kappa, alpha = box.k/float(box.eos.cv), float(expansivity(box.eos, 1.0, box.T_mean))
     ra = box.g*alpha*box.dT*box.L**3/(box.eta*kappa)
     return Weighted(ra=ra, pr=box.eta/kappa, eos=box.eos, L=box.L, aspect=box.aspect, T_hot=box.T_hot,
@@ -68,7 +68,7 @@ def weighted(box: Domain) -> Weighted:
 
 
 def py_pde(layer: Any) -> Parts:
-    """The compressible gas, from rolls until it is steady."""
+    """The compressible gas by py-pde, from initial rolls to a steady state."""
     scene = weighted(layer) if isinstance(layer, Domain) else layer
     done = solve_pde(Gas(scene, round(scene.L)))
     numbers = {"K": Measured(done.ke, done.ke_err), "Nu": Measured(done.nu, abs(np.diff(done.nusselt)[0]))}
@@ -79,8 +79,8 @@ def py_pde(layer: Any) -> Parts:
 
 
 def spectral_gas(layer: Any) -> Parts:
-    """A steady state of the gas in as many waves and polynomials as the layer has rows; fields are those of
-    one half, at the points of the integrals, and their mirror image."""
+    """Steady state of the gas in as many waves and polynomials as the layer has rows; fields are at the
+    quadrature points of one half, and their mirror image."""
     scene = weighted(layer) if isinstance(layer, Domain) else layer
     state = spectral(GasLaws(scene), round(scene.L))
     (x, y), (u, v, r, T) = (state.equations.x.points[:, None], state.equations.y.points), state.at[:, 0]
@@ -90,7 +90,7 @@ def spectral_gas(layer: Any) -> Parts:
 
 
 def of_pde(done: PdeSolution) -> Fields:
-    """Fields in the middle of cells."""
+    """Fields at the centres of cells, from staggered velocities."""
     gas: Any = done.equation
     rho, vx, vy, e, *_ = gas.padded(done.state)
     u, v = (vx[:-1] + vx[1:])[:, 1:-1]/2, (vy[:, :-1] + vy[:, 1:])[1:-1]/2
@@ -100,13 +100,13 @@ def of_pde(done: PdeSolution) -> Fields:
 
 
 def flat(*fields: Any) -> Fields:
-    """Of x, y, u, v, rho, T, V in any shape."""
+    """Fields from x, y, u, v, rho, T, V, arrays that are broadcast to one shape."""
     x, y, u, v, *others = map(np.ravel, np.broadcast_arrays(*fields))
     return Fields(np.stack([x, y], axis=1), np.stack([u, v], axis=1), *others)
 
 
 def boussinesq(scene: Any) -> Parts:
-    """A steady state, by Newton's method: one roll between planes of symmetry, half of the layer."""
+    """Steady state by Newton's method: one roll between planes of symmetry, half of the layer."""
     near = nearest(scene)
     state = steady(BoussinesqCase(ra=near.ra, pr=near.pr, rows=round(scene.L), box=Box(width=scene.aspect/2)))
     seen = state.observe()
@@ -115,7 +115,7 @@ def boussinesq(scene: Any) -> Parts:
 
 
 class Nearest(NamedTuple):
-    """The Boussinesq fluid: its share of dT, Ra, Pr, free-fall velocity; gamma is the gas's."""
+    """Nearest Boussinesq fluid: share of dT that drives it, Ra, Pr, free-fall velocity; gamma of the gas."""
     share: float
     ra: float
     pr: float
@@ -124,7 +124,7 @@ class Nearest(NamedTuple):
 
 
 def nearest(scene: Any) -> Nearest:
-    """Of a layer of ideal gas of density 1, which expands by 1/T."""
+    """Boussinesq fluid nearest to a layer of ideal gas with density 1 and thermal expansivity 1/T."""
     cp, eta = float(scene.eos.cv) + 1, float(viscosity(scene.law, 1.0, scene.T_mean))
     kappa = float(conductivity(scene.law, 1.0, scene.T_mean))/cp
     share = 1 - scene.g*scene.L/(cp*scene.dT)
@@ -133,7 +133,7 @@ def nearest(scene: Any) -> Nearest:
 
 
 def of_state(scene: Any, state: State, near: Nearest) -> Fields:
-    """Fields in cells, with the mirror image of the half that was solved; T is the gas's own."""
+    """Fields in cells of the half that was solved and of its mirror image; T is that of the gas."""
     u, v, T = state.parts
     u, v = np.pad(u, ((1, 1), (0, 0))), np.pad(v, ((0, 0), (1, 1)))     # walls and planes of symmetry
     u, v = (u[:-1] + u[1:])/2, (v[:, :-1] + v[:, 1:])/2
@@ -145,7 +145,7 @@ def of_state(scene: Any, state: State, near: Nearest) -> Fields:
 
 
 def linear_theory(scene: Any) -> Parts:
-    """Onset of the layer as wide as two rolls: where convection begins, and whether it does."""
+    """Critical Ra and growth rate of a pair of rolls as wide as the layer."""
     near, k = nearest(scene), 2*np.pi/scene.aspect
     numbers = {"Ra_c": Measured(critical_ra(k)/near.share/near.gamma),
                "growth": Measured(growth_rate(ra=near.ra, pr=near.pr, k=k)*np.sqrt(near.share))}

@@ -1,4 +1,4 @@
-"""What `solve` gives: numbers with errors, a history, fields, a picture, a file."""
+"""Result of `solve`: numbers with errors, a history, fields, a picture, a file."""
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -13,7 +13,7 @@ from studies.kit.stats import Measured
 
 
 class NoSuchQuantity(AttributeError):
-    """A quantity that this solution does not have."""
+    """This solution does not have the requested quantity."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -22,7 +22,7 @@ class Solution:
 
     numbers : by name, each with the half width of its 95 % interval. history : columns t, K, ... ; t in the
     unit of time of the scene, for convection the free-fall time. at : fields as arrays, at the points or
-    nodes of the method. cpu_s : without compiling.
+    nodes of the method. cpu_s : CPU seconds without compiling.
     """
     scene: Any
     method: str
@@ -50,16 +50,16 @@ class Solution:
 
     @property
     def Nu(self) -> Measured:
-        """Heat that passes over what conduction alone would carry."""
+        """Nusselt number: heat transport over that of conduction alone."""
         return self["Nu"]
 
     @property
     def error(self) -> Measured:
-        """Difference from the exact answer, relative."""
+        """Relative difference from the exact answer."""
         return self["error"]
 
     def fields(self) -> pd.DataFrame:
-        """x, y, vx, vy, rho, T and the volume V, a row for each point or node."""
+        """Table of x, y, vx, vy, rho, T and the volume V, one row per point or node."""
         x, v, *others = self.at
         columns = ("x", "y", "vx", "vy", "rho", "T", "V")
         return pd.DataFrame(dict(zip(columns, (*x.T, *v.T, *others))))
@@ -69,9 +69,9 @@ class Solution:
         return picture(self, path)
 
     def save(self, path: str | Path) -> Path:
-        """Write all of it or nothing: ".h5" with history and numbers, ".vtu" the fields for ParaView.
+        """Write a file, whole or not at all: ".h5" has fields, history, numbers; ".vtu" fields for ParaView.
 
-        Raises ValueError: the name ends otherwise.
+        Raises ValueError: the name has another ending.
         """
         place, kinds = Path(path), {".h5": as_hdf5, ".vtu": as_vtu}
         if place.suffix not in kinds:
@@ -87,13 +87,13 @@ class Solution:
         return place
 
     def __str__(self) -> str:
-        """One line."""
+        """Method, rows, numbers and cost in one line."""
         numbers = ", ".join(f"{name} = {value}" for name, value in self.numbers.items())
         return f"{self.method}, {self.rows} rows: {numbers}  ({self.cpu_s:.1f} s of CPU, {self.steps} steps)"
 
 
 def as_hdf5(solution: Solution, path: Path) -> None:
-    """Groups fields and history, a dataset a column; numbers and what was solved as attributes."""
+    """Write groups fields and history, one dataset per column; numbers and parameters as attributes."""
     with h5py.File(path, "w") as file:
         file.attrs["scene"] = repr(solution.scene)
         for name in ("method", "rows", "seed", "dt", "steps"):
@@ -106,8 +106,8 @@ def as_hdf5(solution: Solution, path: Path) -> None:
 
 
 def as_vtu(solution: Solution, path: Path) -> None:
-    """Points, each a cell of its own, with their fields; places and velocities as vectors in space."""
-    import meshio  # takes half a second, for which few ask
+    """Write each point as a cell with its fields; positions and velocities as 3D vectors."""
+    import meshio  # takes half a second, and few need it
     at, third = solution.at, ((0, 0), (0, 1))
     data = {"velocity": np.pad(at.v, third), "rho": at.rho, "T": at.T, "V": at.V}
     cells = [("vertex", np.arange(len(at.x))[:, None])]

@@ -34,23 +34,23 @@ from studies.front.references import REFERENCES, solved
 from studies.front.solution import Solution
 from studies.kit.stats import with_errors
 
-SAMPLES = 400       # of a history
-#: name -> what solves a scene
+SAMPLES = 400       # approximate number of samples in a history
+#: name -> method or reference solver
 ALL: dict[str, Any] = {**METHODS, **REFERENCES}
 
 
 def solve(scene: Any, method: Any, *, rows: int | None = None, seed: int = 1, time: float | None = None,
           dt: float | None = None, resume: str | Path | None = None, progress: bool | None = None,
           **of_scene: Any) -> Solution:
-    """A scene solved by a method.
+    """Solve a scene by a method.
 
-    scene : a name of `SCENES`, which takes its numbers besides, such as ra=1e4; or an object. method : a name
-    of `ALL`, a variant or a method of one's own, or a class or function of the scene. rows : points or cells
-    over the height. seed : of places at random. time : length of the run in the scene's unit: free-fall times
-    of convection, viscous times of a box. dt : the step, if not the method's own. resume : a file that an
-    interrupted run goes on from. progress : a bar; by default where one looks.
-    Raises ValueError: there is no such scene or method, or the method cannot take the scene. TypeError: one
-    of them is neither, or a formula of one's own does not fit. Divergence.
+    scene : a name of `SCENES`, with its numbers as keywords, such as ra=1e4; or an object. method : a name of
+    `ALL`, a variant or a method of one's own, or a class or function that takes the scene. rows : points or
+    cells over the height. seed : of random positions. time : length of the run in the scene's unit: free-fall
+    times of convection, viscous times of a box. dt : the time step, if not the method's own. resume : a file
+    from which an interrupted run goes on. progress : show a bar; by default if stderr is a terminal.
+    Raises ValueError: unknown scene or method, or the method cannot take the scene. TypeError: scene or
+    method is of no such kind, or a formula of one's own does not fit. Divergence.
     """
     positive(**{name: given for name, given in (("time", time), ("dt", dt)) if given is not None})
     if not isinstance(seed, Integral) or seed < 0:
@@ -68,7 +68,7 @@ def solve(scene: Any, method: Any, *, rows: int | None = None, seed: int = 1, ti
             raise TypeError(misfit(str(error))) from error
         except KeyError as error:
             raise TypeError(f"a formula asks for {error}, which it is not given") from error
-        except ValueError as error:     # points on sides take one that slides, but not into corners
+        except ValueError as error:     # points on sides take a sliding side, but not into corners
             corners = " = Sliding(" in str(error) and where.sides.axes == (False, False)
             why = ", as it slides into corners: take"
             raise ValueError(str(error).replace(": take", why, corners)) from None
@@ -76,7 +76,7 @@ def solve(scene: Any, method: Any, *, rows: int | None = None, seed: int = 1, ti
 
 
 def misfit(words: str) -> str:
-    """The innermost of numba's messages, in a line: what a formula of one's own was called with, or gave."""
+    """Innermost of numba's messages in one line: what a formula of one's own was called with, or gave."""
     words = re.sub(r"Record\([^()]*\)", "point", words)
     inner = words.split("(step: nopython frontend)")[-1].strip()
     what, whole = ("", inner) if ">>> " in inner else (f": {inner.splitlines()[0]}", words)
@@ -84,7 +84,7 @@ def misfit(words: str) -> str:
 
 
 def placed(scene: Any, rows: int | None, **of_scene: Any) -> Any:
-    """The scene with so many rows. Raises ValueError: no such scene, number of rows, number of the scene.
+    """The scene with its rows and numbers. Raises ValueError: unknown scene or number, or wrong rows.
     TypeError: this is no scene."""
     if rows is not None and (not isinstance(rows, Real) or rows < 4 or rows != round(rows)):
         raise ValueError(f"rows must be a whole number of 4 or more, got {rows!r}: 16 or 24 are usual")
@@ -100,7 +100,7 @@ def placed(scene: Any, rows: int | None, **of_scene: Any) -> Any:
 
 
 def check_keywords(given: Iterable[str], make: Callable) -> None:
-    """Refuse what is no number of a scene and no keyword of `solve`. Raises ValueError: names the nearest."""
+    """Raise ValueError, with the nearest names, for a keyword that neither a scene nor `solve` takes."""
     for name in given:
         if name not in (known := numbers_of(make)):
             alike = get_close_matches(name, known, 2, 0.5)
@@ -109,8 +109,8 @@ def check_keywords(given: Iterable[str], make: Callable) -> None:
 
 
 def numbers_of(make: Callable) -> list[str]:
-    """Keywords of `solve` for a scene: those of its maker, then its numbers, but for the length that rows
-    give, then its own."""
+    """Keywords of `solve` for a scene: those of the scene's maker, the scene's numbers (without the length
+    that rows set), and those of `solve` itself."""
     taken, scene = signature(make).parameters.values(), make()
     own = [one.name for one in taken if one.kind is not one.VAR_KEYWORD]
     length = counted(scene) if "rows" in own else ""
@@ -120,7 +120,7 @@ def numbers_of(make: Callable) -> list[str]:
 
 
 def warn_of_heat(scene: Any, time: float) -> None:
-    """Warn of a box that heat enters and never leaves, or the reverse: it will be no steady state."""
+    """Warn if net heat enters or leaves a box whose sides have no temperature: it gets no steady state."""
     if not isinstance(scene, Domain) or scene.temperatures:
         return
     left, right, bottom, top = (getattr(side, "q", 0.0) for side in scene.four)
@@ -133,15 +133,15 @@ def warn_of_heat(scene: Any, time: float) -> None:
 
 
 def named(method: Any) -> Any:
-    """What stands for a method. Raises ValueError: no method has this name. TypeError: it is none."""
+    """The method of a name, or the object itself. Raises ValueError: unknown name. TypeError: no method."""
     return of_name("method", method, ALL) if isinstance(method, str) else variant(method)
 
 
 def prepared(scene: Any, chosen: Any, seed: int = 1) -> Ready:
-    """A method at its start in a scene, for `run`: of grids a block is as flat as states of points.
+    """A method with its initial state in a scene, for `run`; states of grids are flattened to (rows, n).
 
-    Particles of one mass start as dense as the scene has it, and in sound, which jitter would drown, moving
-    points on a lattice.
+    Particles of one mass start with the density of the scene. In sound, moving points start on a lattice,
+    as jitter would exceed the wave.
     """
     begun: dict[str, Any] = {}
     if isinstance(chosen, Variant):
@@ -154,7 +154,7 @@ def prepared(scene: Any, chosen: Any, seed: int = 1) -> Ready:
 
 def planned(scene: Any, chosen: Any, longest: float, time: float | None = None,
             resume: str | Path | None = None) -> Plan:
-    """Steps of the same length, none longer than it may be, and what they record."""
+    """Plan of a run: equal time steps, at most ``longest``, and the series that it records."""
     usual, unit = duration(scene)
     length = (time or usual)*unit
     steps = ceil(length/longest)
@@ -163,7 +163,7 @@ def planned(scene: Any, chosen: Any, longest: float, time: float | None = None,
 
 
 def followed(scene: Any, made: Ready, plan: Plan, name: str, progress: bool | None) -> dict[str, Any]:
-    """Parts of a solution by steps in time."""
+    """Parts of a solution from a run in time steps."""
     shown = sys.stderr.isatty() if progress is None else progress
     with tqdm(total=plan.steps, desc=name, unit="step", disable=not shown, leave=False) as bar:
         def tell(part: float) -> None:
@@ -180,21 +180,21 @@ def followed(scene: Any, made: Ready, plan: Plan, name: str, progress: bool | No
 
 @dataclass(frozen=True)
 class Comparison:
-    """Solutions; diverged : why some have none, by their method and rows."""
+    """Solutions of several methods. diverged : messages of runs without solution, by method and rows."""
     solutions: list[Solution]
     diverged: dict[str, str] = field(default_factory=dict)
 
     @property
     def table(self) -> pd.DataFrame:
-        """A row a method and resolution: numbers, each with its error, and what they cost."""
+        """One row per method and resolution: numbers, each with its error, and their cost."""
         return pd.DataFrame([row(one, with_errors(**one.numbers)) for one in self.solutions])
 
     def plot(self, path: str | Path | None = None) -> Figure:
-        """Flows of the finest resolution above; each number against the cost below."""
+        """Flows at the finest resolution above; each number against cost below."""
         return pictures(self, path)
 
     def __str__(self) -> str:
-        """The table, errors in units of the last digit, then what diverged."""
+        """The table, with errors in units of the last digit, then the runs that diverged."""
         rows = pd.DataFrame([row(one, {name: str(q) for name, q in one.numbers.items()})
                              for one in self.solutions])
         table = rows.to_string(index=False, na_rep="", float_format="{:.2g}".format)
@@ -203,15 +203,15 @@ class Comparison:
 
 
 def row(one: Solution, numbers: dict[str, Any]) -> dict[str, Any]:
-    """A line of the table."""
+    """Row of the table for one solution."""
     return {"method": one.method, "rows": one.rows, **numbers, "cpu_s": one.cpu_s, "steps": one.steps}
 
 
 def compare(scene: Any, methods: Sequence[Any], rows: Sequence[int] | int = (16, 25),
             **more: Any) -> Comparison:
-    """Solve a scene by several methods at several resolutions; what diverges is told beside the table.
+    """Solve a scene by several methods at several resolutions; runs that diverge are listed apart.
 
-    scene, methods, more : as of `solve`. Raises ValueError: as `solve`, before anything runs.
+    scene, methods, more : as of `solve`. Raises ValueError: as `solve`, for each run when its turn comes.
     """
     solutions, diverged = [], {}
     for method in [methods] if isinstance(methods, str) else methods:

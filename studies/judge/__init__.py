@@ -2,5 +2,5 @@
 
     python -m studies.judge my_module:MyMethod
 
-Its scenes have answers; `studies.front.solve` runs them. `examples/your_method.md` shows such a class.
+The scenes have known answers; `studies.front.solve` runs them. `examples/your_method.md` shows such a class.
 """

@@ -44,7 +44,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def found(words: str) -> Any:
-    """A class by module:Class, or a name. Raises ValueError, ImportError: there is none."""
+    """The class for module:Class, or the name of a method. Raises ValueError, ImportError: there is none."""
     file, colon, name = words.partition(":")
     if not colon:
         variant(words)

@@ -1,4 +1,4 @@
-"""Whether a method has what a run asks of it (`particles.method`), told before anything runs."""
+"""Check that a method has all that a run needs of it (`particles.method`), before anything runs."""
 from typing import Any
 
 import numpy as np
@@ -10,19 +10,19 @@ from particles.threads import Threads
 from studies.build.setting import Ready
 from studies.front.solving import named, prepared
 
-#: member -> how it is written
+#: member -> its form, in messages
 MEMBERS = {"names": "names, of the rows of a state", "eos": "eos, the scene's",
            "fields": "fields(state), which gives Fields(x, v, rho, T, V)",
            "start": "start(n, threads), which gives its sums: inherit OwnRates"}
-AGREE = 1e-6        # fields of a start with what it was made from
+AGREE = 1e-6        # largest difference of fields(state(...)) from the scene's fields
 
 
 class Breach(TypeError):
-    """A method that lacks something, or gives something of another shape."""
+    """A method lacks a member, or one of its results is wrong."""
 
 
 def contract(scene: Any, method: Any) -> dict[str, float]:
-    """Nothing, if all is there. Raises Breach: it is not."""
+    """Check a method in a scene; return no numbers. Raises Breach: it does not meet the contract."""
     chosen = named(method)
     if isinstance(chosen, type) and not hasattr(chosen, "ready"):
         check_members(chosen(scene), "state")
@@ -31,7 +31,7 @@ def contract(scene: Any, method: Any) -> dict[str, float]:
 
 
 def check(scene: Any, ready: Ready) -> None:
-    """Refuse a method in a scene that lacks something."""
+    """Raise Breach if a method in a scene has wrong members, fields, sums or limit of the step."""
     check_members(ready.method)
     check_fields(scene, ready.method, ready.start)
     check_sums(ready.method, ready.start)
@@ -41,7 +41,7 @@ def check(scene: Any, ready: Ready) -> None:
 
 
 def check_members(method: Any, *more: str) -> None:
-    """Refuse a method without one of these."""
+    """Raise Breach if a method lacks one of MEMBERS, or of ``more``."""
     told = {**MEMBERS, "state": "state(rho, v, T), or state(x, rho, v, T) without places x of its own"}
     lacking = [told[name] for name in (*MEMBERS, *more) if not hasattr(method, name)]
     if lacking:
@@ -49,7 +49,7 @@ def check_members(method: Any, *more: str) -> None:
 
 
 def check_fields(scene: Any, method: Any, start: np.ndarray) -> None:
-    """Refuse a start or fields of other shapes, or that are not the scene's."""
+    """Raise Breach if start or fields have wrong shapes, or v or T differ from the scene's."""
     if start.ndim != 2 or len(start) != len(method.names):
         raise Breach(f"state gives an array {start.shape}: it has {len(method.names)} rows, one for "
                      "each of names")
@@ -68,7 +68,7 @@ def check_fields(scene: Any, method: Any, start: np.ndarray) -> None:
 
 
 def check_sums(method: Any, start: np.ndarray) -> None:
-    """Refuse sums that lack something, or rates that are not written."""
+    """Raise Breach if sums lack a member; compute rates, or leap once: these raise errors of their own."""
     sums = method.start(start.shape[1], Threads(1))
     if not isinstance(sums, Sums):
         asked = ("method", *(name for name in dir(Sums) if not name.startswith("_")))

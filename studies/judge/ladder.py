@@ -1,6 +1,6 @@
-"""The ladder: what each rung asks, in which scene, its measure, verdict and rule; and climbing it.
+"""The ladder of tests: question, scene, measure, verdict and rule of each rung; and how a method climbs it.
 
-What fails a verdict is one, too. A climb takes some minutes.
+An error that a method raises becomes a verdict, too. A climb takes some minutes.
 """
 import inspect
 import sys
@@ -24,9 +24,9 @@ from studies.judge.contract import contract
 from studies.judge.measures import Numbers, Taken, Verdict
 
 LEFT_OUT = "left out:"
-CROSSINGS = 20.0        # of the box by sound: waves of the start have had time to grow
-FRICTION = 0.001        # eta = k, in box lengths over the unit of time: about that of the vortex
-WIND = 2.0              # times the fastest flow of the vortex
+CROSSINGS = 20.0        # length of a run, in sound's crossings of the box: initial waves have time to grow
+FRICTION = 0.001        # eta/L = k/L: about that of the vortex
+WIND = 2.0              # speed of the wind over the largest speed of the vortex
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -49,11 +49,11 @@ class Still(Scene):
 
 @dataclass(frozen=True, kw_only=True)
 class Carried(TaylorGreen):
-    """The vortex in a frame that moves along both axes, at an angle to rows of points."""
+    """The vortex in a uniform wind along both axes, at an angle to rows of points."""
 
     @property
     def wind(self) -> np.ndarray:
-        """(2,)"""
+        """Velocity, (2,)."""
         return WIND*self.speed*np.array([2.0, 1.0])/sqrt(5)
 
     def fields(self, x: np.ndarray) -> Start:
@@ -66,7 +66,7 @@ class Carried(TaylorGreen):
 
 
 class Rung(NamedTuple):
-    """scene : of so many rows."""
+    """A test. scene : makes it for a number of rows. every : tried with all numbers of rows."""
     name: str
     asks: str
     scene: Callable[[int], Any]
@@ -76,18 +76,18 @@ class Rung(NamedTuple):
     every: bool = False
 
     def judged(self, taken: Taken) -> Verdict:
-        """Of all numbers of rows where every one is tried, else of the first alone."""
+        """Verdict on all numbers of rows if ``every``, else on the first alone."""
         return self.verdict(taken if self.every else taken[0][1])
 
 
 def flow(name: str, asks: str) -> Rung:
-    """A scene of `SCENES` with an exact answer."""
+    """A rung from a scene of `SCENES` with an exact answer."""
     return Rung(name, asks, SCENES[name], measures.error, measures.convergence,
                 f"the order is the slope of log error over log rows; below {measures.LEAST} there is none",
                 every=True)
 
 
-vortex = SCENES["taylor-green"]         # of Mach number 0.05, Re 100
+vortex = SCENES["taylor-green"]         # Mach number 0.05, Re 100
 RUNGS = (
     Rung("contract", "Has it what a run asks for?", vortex, contract, measures.meets,
          "members and shapes of particles.method; fields(state(...)) gives back the fields"),
@@ -118,7 +118,7 @@ RUNGS = (
 
 
 class Take(NamedTuple):
-    """A rung at a number of rows: its numbers, or why there are none."""
+    """Result of a rung at a number of rows: numbers, or the fault that left none."""
     rung: str
     rows: int
     numbers: Numbers
@@ -127,14 +127,14 @@ class Take(NamedTuple):
 
 
 def climb(method: Any, rows: Sequence[int], minutes: float) -> list[Take]:
-    """A method on its way up, from few rows to many; what takes longer than the minutes is left out."""
+    """Try a method on all rungs, from few rows to many; runs that would exceed ``minutes`` are left out."""
     end, takes = monotonic() + 60*minutes, list[Take]()
     places = [(rung, count) for rung in RUNGS for count in (rows if rung.every else rows[:1])]
     works = [work(*place) for place in places]
     for number, place in enumerate(places, 1):
         take = taken(method, *place, end - monotonic(), takes)
         takes.append(take)
-        # the first run compiles most, others less: the fastest shows what a run alone takes
+        # the first runs compile: the fastest one shows the time of a run alone
         paces = [one.seconds/size for one, size in zip(takes, works) if one.numbers]
         left = f"; about {min(paces)*sum(works[number:]):.0f} s left" if len(paces) > 1 else ""
         print(f"[{number}/{len(places)}] {take.rung}, {take.rows} rows: "
@@ -143,8 +143,8 @@ def climb(method: Any, rows: Sequence[int], minutes: float) -> list[Take]:
 
 
 def taken(method: Any, rung: Rung, rows: int, left: float, before: list[Take]) -> Take:
-    """One; not begun where the seconds that are left would not do."""
-    # as the same rung with fewer rows foretells; nothing is known of the first
+    """Try a rung; left out if it needs more than the ``left`` seconds."""
+    # estimated from the same rung with fewer rows; 0 for the first, of which nothing is known
     same = [take for take in before if take.rung == rung.name and take.numbers]
     needed = same[-1].seconds*work(rung, rows)/work(rung, same[-1].rows) if same else 0.0
     if needed > left:
@@ -154,13 +154,13 @@ def taken(method: Any, rung: Rung, rows: int, left: float, before: list[Take]) -
     try:
         with np.errstate(all="ignore"):
             numbers, fault = rung.measure(rung.scene(rows), method), ""
-    except Exception as error:      # whatever a method of somebody's own may raise is its verdict
+    except Exception as error:      # any error of a user's method becomes its verdict
         numbers, fault = {}, told(error, method)
     return Take(rung.name, rows, numbers, monotonic() - began, fault)
 
 
 def told(error: Exception, method: Any) -> str:
-    """One line: what was raised, and where in the method's own file."""
+    """One line: the error, and where in the method's own file it was raised."""
     words = str(error).strip().split("\n")[0]
     own = Path(inspect.getfile(method)) if isinstance(method, type) else None
     if isinstance(error, Divergence):
@@ -172,14 +172,14 @@ def told(error: Exception, method: Any) -> str:
 
 
 def work(rung: Rung, rows: int) -> float:
-    """Points times the length of the run: seconds go with it."""
+    """Points times the length of the run, to which run time is proportional."""
     scene = rung.scene(rows)
     usual, unit = duration(scene)
     return float(scene.width*scene.L*usual*unit)
 
 
 def judged(rung: Rung, takes: Sequence[Take]) -> Verdict:
-    """The verdict of a rung: what went wrong first, then what the rest says."""
+    """Verdict of a rung: its first fault, and the verdict on runs without faults."""
     mine = [take for take in takes if take.rung == rung.name]
     faults = [f"{take.fault} ({take.rows} rows)" if rung.every else take.fault for take in mine if take.fault]
     taken = [(take.rows, take.numbers) for take in mine if not take.fault]
@@ -192,7 +192,7 @@ def judged(rung: Rung, takes: Sequence[Take]) -> Verdict:
 
 
 def verdicts(takes: Sequence[Take]) -> list[tuple[Rung, Verdict]]:
-    """Of all rungs, that of the step first where every step is unstable; what is the same is told once."""
+    """Verdicts of all rungs, first one of instability at any step; equal ones refer to the first of them."""
     pairs = [(rung, judged(rung, takes)) for rung in RUNGS]
     pairs.sort(key=lambda pair: "unstable at any step" not in pair[1].words)
     first: dict[str, str] = {}

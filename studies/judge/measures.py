@@ -1,6 +1,6 @@
-"""What rungs of the ladder measure, (scene, method) -> numbers by name, and what they say of these numbers.
+"""Measures of the ladder's rungs, (scene, method) -> numbers by name, and verdicts on these numbers.
 
-Errors of the method go up. A verdict on all numbers of rows takes (rows, numbers) from few to many.
+Errors of the method are passed on. A verdict on all numbers of rows takes (rows, numbers), few rows first.
 """
 from dataclasses import replace
 from typing import Any, NamedTuple
@@ -20,32 +20,32 @@ from studies.kit.store import RESULTS
 
 Numbers = dict[str, float]
 Taken = list[tuple[int, Numbers]]
-FEW = 50            # steps that two runs of one seed are compared after
-TRIED = 300         # steps of a run at a step that may be too long
-FED = 1.1           # of the first kinetic energy of a vortex, which can only decay: it is fed by the method
-LIMIT = 0.98        # of the claimed step: growth just above the limit takes more than 300 steps to be seen
+FEW = 50            # steps after which two runs of one seed are compared
+TRIED = 300         # steps of a run whose time step may be too long
+FED = 1.1           # growth of kinetic energy that shows instability: that of a vortex can only decay
+LIMIT = 0.98        # tolerance on the claimed step: just above the limit growth takes more than 300 steps
 LEAST = 0.5         # order below which errors do not fall with rows
-ROUNDING = 1e-10    # a sum over thousands of steps and points
-NOISE = 1e-3        # of sound: of a fluid that is at rest on average
-WARM = 1e-6         # of T
-ALIKE = 0.1
-RIGHT = 0.002       # of K: what it still changes by after 90 free-fall times
-LOOSE = 0.05        # error of K that tells nothing: methods of the README's table differ by less
+ROUNDING = 1e-10    # round-off of a sum over thousands of steps and points
+NOISE = 1e-3        # rms speed over that of sound, of a fluid that is at rest on average
+WARM = 1e-6         # relative change of T that is heating
+ALIKE = 0.1         # relative difference of errors in two frames that are alike
+RIGHT = 0.002       # relative change of K that remains after 90 free-fall times
+LOOSE = 0.05        # relative error of K that leaves no verdict: methods of the README differ by less
 
 
 class Verdict(NamedTuple):
-    """good : None where there is nothing to praise or blame."""
+    """A verdict in words. good : None if it is neither good nor bad."""
     words: str
     good: bool | None
 
 
 def meets(numbers: Numbers) -> Verdict:
-    """There is no verdict of `contract` but what it raises."""
+    """Verdict on a method that passed `contract`, which raises Breach otherwise."""
     return Verdict("has all that a run asks for", True)
 
 
 def rest(scene: Any, method: Any) -> Numbers:
-    """Of a fluid that was at rest at T = 1: rms speed over that of sound, and how much hotter it is."""
+    """Fluid that starts at rest at T = 1: rms speed over that of sound, and rise of mean T, at the end."""
     at = solve(scene, method).at
     m = at.rho*at.V/(at.rho@at.V)
     return {"speed": float(m@(at.v**2).sum(axis=1))**0.5/SOUND, "heating": float(m@at.T) - 1}
@@ -62,7 +62,7 @@ def stays(numbers: Numbers) -> Verdict:
 
 
 def kept(scene: TaylorGreen, method: Any) -> Numbers:
-    """The largest drift of mass, momentum and energy, over the first mass, that times speed, the energy."""
+    """Largest drift of mass, momentum, energy over initial mass, mass times vortex speed, initial energy."""
     chosen = named(method)
     ready = prepared(scene, chosen)
     first, drift = total(scene, ready.method.fields(ready.start)), np.zeros(4)
@@ -76,7 +76,7 @@ def kept(scene: TaylorGreen, method: Any) -> Numbers:
 
 
 def total(scene: Any, at: Fields) -> np.ndarray:
-    """Mass, momentum along both axes, energy."""
+    """Total mass, momentum along both axes, and energy, (4,)."""
     m = at.rho*at.V
     e = energy(scene.eos, at.rho, at.T) + (at.v**2).sum(axis=1)/2
     return np.array([m.sum(), *(m@at.v), m@e])
@@ -90,7 +90,7 @@ def keeps(numbers: Numbers) -> Verdict:
 
 
 def frames(scene: Any, method: Any) -> Numbers:
-    """Errors of velocities over the vortex's speed, of the vortex at rest and carried by a wind."""
+    """Errors of velocity over the vortex's speed, for the vortex at rest and in a wind, and their ratio."""
     both = (solve(one, method) for one in (TaylorGreen(L=scene.L, mach=scene.mach), scene))
     still, carried = (apart(done.at, answer(done.scene, done.at.x))/scene.speed for done in both)
     return {"at_rest": still, "carried": carried, "ratio": carried/still}
@@ -104,7 +104,7 @@ def same_frames(numbers: Numbers) -> Verdict:
 
 
 def repeated(scene: Any, method: Any) -> Numbers:
-    """The largest difference between two runs of one seed."""
+    """Largest difference between the final states of two runs of one seed."""
     first, second = (prepared(scene, named(method)) for _ in range(2))
     plan = Plan(dt=first.dt, steps=FEW)
     one, other = (run(ready.method, ready.start, plan).by_id() for ready in (first, second))
@@ -119,7 +119,7 @@ def repeats(numbers: Numbers) -> Verdict:
 
 
 def longest(scene: TaylorGreen, method: Any) -> Numbers:
-    """The longest step at which a vortex does not gain energy, over the one that is claimed; nan: none is."""
+    """Longest step at which a vortex gains no energy, over the claimed one; nan: no limit was found."""
     ready = prepared(scene, named(method))
     free, first = Unguarded(ready.method), kinetic_energy(ready.method.fields(ready.start))
 
@@ -147,13 +147,13 @@ def holds(numbers: Numbers) -> Verdict:
 
 
 def error(scene: Any, method: Any) -> Numbers:
-    """Difference from the exact answer, relative."""
+    """Relative difference from the exact answer, and CPU seconds."""
     done = solve(scene, method)
     return {"error": done.error.value, "cpu_s": done.cpu_s}
 
 
 def order(taken: Taken) -> float:
-    """Of errors against rows; it falls where they grow."""
+    """Order of convergence: minus the slope of log error over log rows."""
     logs = np.log([(rows, abs(numbers["error"])) for rows, numbers in taken])
     rows, errors = logs.T
     return -float(np.polyfit(rows, errors, 1)[0])
@@ -172,7 +172,7 @@ def convergence(taken: Taken) -> Verdict:
 
 
 def convection(scene: Any, method: Any) -> Numbers:
-    """K and Nu with their errors; the error of K, relative to the grid's limit at Ra 10 000, Pr 1."""
+    """K and Nu with errors; the relative difference of K from the grid's limit at Ra 10 000, Pr 1."""
     rows = csvfile.read(RESULTS/"rb"/"kinetic_energy.csv")
     limit = rows.query("method == 'compressible' and variant == 'flux-form' and eos == 'ideal' and "
                        "transport == 'const-eta' and sides == 'periodic' and ra == 1e4 and pr == 1 and "
@@ -203,6 +203,6 @@ def right(taken: Taken) -> Verdict:
 
 
 def percent(share: float) -> str:
-    """Of its size, in two digits or more."""
+    """Absolute value in per cent, with two digits or more."""
     size = 100*abs(share)
     return f"{size:.2g} %" if size < 10 else f"{size:.0f} %"

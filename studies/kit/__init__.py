@@ -1,14 +1,14 @@
 """What all studies share: cases that run on workers, tables, claims, figures; no physics.
 
-A study (study.py) is made of parts: cases, tables, and what reads these: figures (figure.py) and claims
-(claim.py, ask.py).
+A study (study.py) consists of cases, tables, and the figures (figure.py) and claims (claim.py, ask.py) that
+read the tables.
 
-How a case becomes a row: it is a dataclass with a method `run` (case.py). A sweep (sweep.py) gives the cases
-that are not finished to a loop (dispatch.py), which hands them to this process, to workers, or to a cluster
-(cluster.py). What comes back is kept as JSON in a file named by the case's key (store.py), and merged into a
-table (table.py), which is a CSV file (csvfile.py).
+How a case becomes a row: a case is a dataclass with a method `run` (case.py). A sweep (sweep.py) passes the
+unfinished cases to a loop (dispatch.py), which runs them in this process, in workers, or on a cluster
+(cluster.py). The outcome of a case is stored as JSON in a file named by the case's key (store.py), and
+merged into a table (table.py), which is a CSV file (csvfile.py).
 
-How its key is made: by hashing its parameters and the definitions that it reaches (`key_of` in case.py).
-`Code` (key.py) follows these through our packages: it takes modules apart (syntax.py) and reads definitions
-without their layout (reader.py).
+How the key of a case is made: `key_of` (case.py) hashes the parameters and the definitions that the case
+reaches. `Code` (key.py) follows these through our packages: it parses modules (syntax.py) and reads
+definitions without their layout (reader.py).
 """

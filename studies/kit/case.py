@@ -1,4 +1,4 @@
-"""A case: one computation with all its parameters, and what it hands back."""
+"""A case: one computation with all its parameters, its outcome, and its key."""
 import dataclasses
 import json
 import sys
@@ -18,7 +18,7 @@ Report = Callable[[float], None]
 
 @dataclasses.dataclass(frozen=True)
 class Outcome:
-    """What a case found: rows for each table by name."""
+    """Result of a case: rows by the name of their table."""
 
     rows: Rows
 
@@ -29,23 +29,23 @@ class Case:
     """Base of all cases; a subclass is a frozen keyword-only dataclass whose fields are the parameters.
 
     Fields may be numbers, strings, tuples, dicts, enums, NamedTuples, dataclasses, and functions or classes
-    of a module. The result must depend on nothing else than these and the code.
+    of a module. The result must depend only on the fields and the code.
     """
 
-    #: True for timings: the case then has the machine to itself
+    #: True for a case that measures times: it then runs alone on the machine
     alone: ClassVar[bool] = False
-    table: ClassVar[str] = ""   # of all rows
-    same: ClassVar[str] = ""    # fields and properties that are columns of each
+    table: ClassVar[str] = ""   # name of the table of all rows
+    same: ClassVar[str] = ""    # names of the fields and properties that are columns of every row
 
     def __init_subclass__(cls, table: str = "", same: str = "") -> None:
-        """``class Wave(Case, table="waves", same="k seed")`` needs no decorator and no columns k, seed."""
+        """Make ``class Wave(Case, table="waves", same="k seed")`` a dataclass; its rows get k and seed."""
         if table or same:
             cls.table, cls.same = table or cls.table, same or cls.same
             dataclasses.dataclass(frozen=True, kw_only=True)(cls)
 
     @property
     def cost(self) -> float:
-        """Estimated CPU seconds: longest cases start first, and the time left is reckoned from it."""
+        """Estimated CPU seconds: the longest cases start first; the progress bar estimates the time left."""
         return 1.0
 
     @property
@@ -56,15 +56,15 @@ class Case:
 
     @property
     def columns(self) -> Row:
-        """What all rows have in common: fields that are columns, functions and records by their names."""
+        """Columns that all rows share: the values of ``same``, functions and records by name."""
         return {name: called(getattr(self, name)) for name in self.same.split()}
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        """Compute. ``folder`` is for checkpoints: it is kept until the case is finished."""
+        """Compute the outcome. ``folder`` is for checkpoints: it is kept until the case is finished."""
         return Outcome({self.table: [self.columns | row for row in self.measure(report)]})
 
     def measure(self, report: Report) -> Iterable[Row]:
-        """What is measured; a case of several tables, or with checkpoints, has a `run` of its own."""
+        """Rows of the table; a case with several tables or with checkpoints overrides `run` instead."""
         raise NotImplementedError
 
     @cached_property
@@ -74,7 +74,7 @@ class Case:
 
 
 def word(value: Any) -> str:
-    """A parameter as people write it: of a record what differs from its defaults, of a function its name."""
+    """A parameter as text: a record with its non-default fields, a function by its name."""
     if isinstance(value, float):
         return f"{value:g}"
     if hasattr(value, "__qualname__"):
@@ -88,12 +88,12 @@ def word(value: Any) -> str:
 
 
 def called(value: Any) -> Any:
-    """A parameter as a column has it: a record or a function by its name."""
+    """A parameter as the value of a column: a record or a function by its name."""
     return getattr(value, "name", getattr(value, "__name__", value))
 
 
 def defaults(kind: Any) -> dict[str, Any] | None:
-    """Field -> default of a class of records, None of another class."""
+    """Field -> default for a dataclass or NamedTuple class, None for other classes."""
     if dataclasses.is_dataclass(kind):
         return {field.name: field.default for field in dataclasses.fields(kind)}
     if hasattr(kind, "_field_defaults"):
@@ -102,7 +102,7 @@ def defaults(kind: Any) -> dict[str, Any] | None:
 
 
 def fields_of(value: Any) -> dict[str, Any] | None:
-    """Field -> value of a record or a dict, None of another object."""
+    """Field -> value for a record or a dict, None for other objects."""
     if isinstance(value, dict):
         return value
     names = None if isinstance(value, type) else defaults(type(value))
@@ -110,7 +110,7 @@ def fields_of(value: Any) -> dict[str, Any] | None:
 
 
 def parameters(value: Any) -> Any:
-    """Parameters as JSON: exact (floats by repr), the type of every record with it."""
+    """Parameters as JSON: floats exact (by repr), every record with its type."""
     if value is None or isinstance(value, bool | int | float | str):
         return value
     kind = {"": type(value).__qualname__}
@@ -123,20 +123,20 @@ def parameters(value: Any) -> Any:
         return [parameters(item) for item in value]
     if hasattr(value, "__qualname__") and "<" not in value.__qualname__:
         package = value.__module__.partition(".")[0]
-        ours = package in (*PACKAGES, "__main__", "__mp_main__")    # what it says is in the key
+        ours = package in (*PACKAGES, "__main__", "__mp_main__")    # the key includes its code
         return {"": value.__qualname__} | ({} if ours else {"module": value.__module__})
     raise TypeError(f"a case cannot hold {value!r}: use numbers, texts, tuples, NamedTuples, dataclasses, "
                     "enums, or functions and classes of a module")
 
 
 def key_of(case: Case, code: Code) -> str:
-    """Key of a case with the definitions of another copy of our packages, or of these."""
+    """Key of a case: hash of its parameters and of the definitions in ``code``, some copy of our packages."""
     values = json.dumps(parameters(case), sort_keys=True)
     return digest(values, code.hash(starts(case)))
 
 
 def starts(case: Case) -> Iterator[Place]:
-    """Where the classes of a case are defined, and all that takes part in its parameters."""
+    """Places where the classes of a case and the types and functions among its parameters are defined."""
     own = file_of(type(case).__module__)
     classes = [place_of(kind, own, CASE if issubclass(kind, Case) else WHOLE) for kind in type(case).__mro__]
     values = [place_of(kind, own) for value in vars(case).values() for kind in kinds(value)]
@@ -144,7 +144,7 @@ def starts(case: Case) -> Iterator[Place]:
 
 
 def place_of(kind: Any, own: Path | None, part: str = WHOLE) -> Place | None:
-    """Where a class or function is defined, None if neither in our packages nor in the file of the case."""
+    """Place where a class or function is defined; None outside our packages and the file of the case."""
     path = file_of(kind.__module__)
     if path is None:
         return None
@@ -155,7 +155,7 @@ def place_of(kind: Any, own: Path | None, part: str = WHOLE) -> Place | None:
 
 
 def kinds(value: Any) -> Iterator[Any]:
-    """Types of all parameters, nested ones too, and parameters that are functions or classes themselves."""
+    """Types of all parameters, nested ones included; a function or class stands for itself."""
     yield value if hasattr(value, "__qualname__") else type(value)
     fields = fields_of(value)
     items = value if fields is None else list(fields.values())
@@ -166,13 +166,13 @@ def kinds(value: Any) -> Iterator[Any]:
 
 @cache
 def file_of(module: str | None) -> Path | None:
-    """File of a module by its name, None for those that are built in."""
+    """File of a module by its name, None for built-in modules."""
     file = getattr(sys.modules.get(module or ""), "__file__", None)
     return Path(file).resolve() if file else None
 
 
 @cache
 def module_of(path: Path) -> str | None:
-    """Dotted name of a file of our packages: ``python -m studies.front`` calls itself __main__."""
+    """Dotted module name of a file in our packages, else None; a module started by -m is named __main__."""
     ours = any(path.is_relative_to(ROOT/package) for package in PACKAGES)
     return name_of(path) if ours else None

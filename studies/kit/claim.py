@@ -7,9 +7,9 @@ With measured value m, its 95 % interval [m - err, m + err] and the accepted ran
 - ``undecidable``  a limit of the range lies in the interval, or nothing could be measured.
 
 A point estimate inside the range is not enough for ``holds``: with a large error bar it would hold by
-ignorance. This way either verdict is wrong in 2.5 % of cases, and more computing decides, if the range, the
-seeds and the window were fixed before the first look and the interval is one of chance. Of claims that were
-``fixed`` after a look nothing of the kind is known: what was seen may have chosen what is asked.
+ignorance. With this rule either verdict is wrong in 2.5 % of cases, and more computing leads to a verdict,
+if the range, the seeds and the time window were fixed before the first look at the data and the interval
+expresses chance. For claims ``fixed`` after a look this rate is unknown: the data may have shaped the claim.
 """
 import math
 import re
@@ -27,7 +27,7 @@ from studies.kit.value import Value, WrongQuestion
 
 COLUMNS = ("id", "source", "statement", "whose", "printed", "fixed", "measured", "err", "low", "high",
            "verdict", "reason", "study", "formula", "equation", "headline", "evidence")
-#: of columns, in the head of the file
+#: meaning of columns, written into the head of the file
 MEANING = ("whose: a statement that the paper prints, or another author, or our own about the same equation "
            "or scene; the id begins so",
            "fixed: whether range, seeds and window were fixed before the first look or after one",
@@ -38,18 +38,18 @@ MEANING = ("whose: a statement that the paper prints, or another author, or our 
            "err is the half width of the 95 % interval, low to high is accepted; studies/kit/claim.py has "
            "the rule of the verdicts")
 
-#: how a source begins: with a paper, or an author and a year
+#: beginning of a source: a paper, or an author and a year
 PAPER = re.compile(r"(KHP95|RR98)\b|[A-Z].*?\b(1[89]|20)\d\d\b\)?", re.IGNORECASE)
 ROMAN = ("I", "II", "III", "IV", "V", "VI", "VII", "VIII", "IX", "X")
 COUNTED = r"\d+(-\d+)?"
-#: kind of place -> what follows it, in the order in which places are listed
+#: kind of place -> pattern of its number, in the order in which places are listed
 KINDS = {"Eq.": COUNTED, "Fig.": COUNTED, "Table": COUNTED, "abstract": "",
          "Sec.": rf"({'|'.join(ROMAN)})( [A-Z])?", "example": r"\w+"}
 PART = re.compile(r"(?:after )?(?:(Eq|Fig|Table|Sec|abstract|example)s?\.?(?: |$))?(.*)")
 
 
 class Cited(NamedTuple):
-    """An equation, a figure, a table or a section of a paper; without a kind the whole paper."""
+    """An equation, figure, table or section of a paper; without a kind, the whole paper."""
 
     paper: str
     kind: str = ""
@@ -60,16 +60,16 @@ class Cited(NamedTuple):
 
     @property
     def order(self) -> tuple:
-        """By paper, kind and number: Eq. 9 before Eq. 10, Sec. III before Sec. III B."""
+        """Sort key by paper, kind and number: Eq. 9 before Eq. 10, Sec. III before Sec. III B."""
         first, _, rest = self.number.partition(" ")
         number = int(first) if first.isdecimal() else [*ROMAN, first].index(first)
         return self.paper, [*KINDS, ""].index(self.kind), number, rest
 
 
 def places(source: str) -> tuple[Cited, ...]:
-    """What a source names, each equation of a range; of one with equations, figures or tables these alone.
+    """Places that a source cites, ranges expanded: equations, figures and tables only, if there are any.
 
-    Raises ValueError: it does not begin with a paper, or something after it is no place.
+    Raises ValueError: the source does not begin with a paper, or a part after it is no place.
     """
     paper, kind = paper_of(source), ""
     named: list[Cited] = []
@@ -86,7 +86,7 @@ def places(source: str) -> tuple[Cited, ...]:
 
 
 def each(number: str) -> list[str]:
-    """A number, or those of a range."""
+    """A number as a list, or all numbers of a range such as 34-36."""
     first, _, last = number.partition("-")
     return [str(one) for one in range(int(first), int(last) + 1)] if last else [number]
 
@@ -101,21 +101,21 @@ def paper_of(source: str) -> str:
 
 
 def listed(several: Iterable[Cited]) -> str:
-    """Places as a column has them, sorted: "RR98 Eq. 34; RR98 Eq. 35"."""
+    """Places as text of a column, sorted: "RR98 Eq. 34; RR98 Eq. 35"."""
     return "; ".join(str(one) for one in sorted(set(several), key=lambda one: one.order))
 
 
 @dataclass(frozen=True, kw_only=True)
 class Claim:
-    """One statement, testable or not: a paper's or another author's, with what is ``printed``, or our own.
+    """One statement, testable or not, of a paper or another author (with the ``printed`` value), or our own.
 
-    ``value(tables)`` gives (value, err), err the half width of the 95 % interval. Accepted is ``expect`` +-
-    ``within``, or ``at_least``, or ``at_most``, or both of these; ``because`` says where these limits come
-    from. What cannot be tested has ``undecidable="reason"`` in their place.
+    ``value(tables)`` returns (value, err), where err is the half width of the 95 % interval. The accepted
+    range is ``expect`` +- ``within``, or has the limits ``at_least``, ``at_most``, or both; ``because`` is
+    the reason for it. A statement that cannot be tested has ``undecidable="reason"`` instead.
 
-    ``after`` : what had been seen before the range, the seeds or the window were fixed; empty if nothing.
-    ``headline`` : True if it decides the verdict of all that its source names, or of which: "Eqs 34, 35".
-    ``evidence`` : a figure, or a table that ``value`` does not ask, in results/: "operators/growth.png".
+    ``after`` : results that were seen before range, seeds or time window were fixed; empty if none were.
+    ``headline`` : True if the claim decides the verdict on all places of its source, or which: "Eqs 34, 35".
+    ``evidence`` : a figure, or a table that ``value`` does not read, in results/: "operators/growth.png".
     """
 
     id: str
@@ -140,7 +140,7 @@ class Claim:
             raise ValueError(f"claim {self.id}: {error}") from error
 
     def check(self) -> None:
-        """Refuse a headline that is no place of the source, a test without value, reason or limits."""
+        """Raise ValueError if headline is no place of the source, or value, reason or limits are wrong."""
         if other := {*self.decides} - {*self.places}:
             raise ValueError(f"headline {listed(other)} is not in source {self.source!r}: name it there too")
         if bool(self.undecidable.strip()) == bool(self.value):
@@ -157,17 +157,17 @@ class Claim:
 
     @property
     def whose(self) -> str:
-        """As its id begins: of the paper, "own" or of another author."""
+        """Origin of the statement, by the beginning of its id: "paper", "own" or "other"."""
         return {"khp95": "paper", "rr98": "paper", "own": "own"}.get(self.id.split("-")[0], "other")
 
     @property
     def places(self) -> tuple[Cited, ...]:
-        """Equations, figures, tables or else sections of the source."""
+        """Equations, figures and tables that the source cites, else sections."""
         return places(self.source)
 
     @property
     def decides(self) -> tuple[Cited, ...]:
-        """Those of them whose verdict it decides."""
+        """Places whose verdict the claim decides."""
         if isinstance(self.headline, str) and self.headline:
             return places(f"{paper_of(self.source)} {self.headline}")
         return self.places if self.headline else ()
@@ -202,12 +202,12 @@ def verdict(claim: Claim, value: float, err: float) -> str:
 
 
 def judge(claims: Sequence[Claim], tables: Tables, study: str) -> list[Row]:
-    """One row a claim, with the columns of results/claims.csv."""
+    """One row per claim, with the columns of results/claims.csv."""
     return [row(claim, Noting(tables), study) for claim in claims]
 
 
 class Noting(Tables):
-    """Tables that note which of them a value reads: evidence is not listed by hand."""
+    """Tables that record which of them a value reads, so that evidence need not be listed by hand."""
 
     def __init__(self, tables: Tables):
         super().__init__(tables)
@@ -219,7 +219,7 @@ class Noting(Tables):
 
 
 def row(claim: Claim, tables: Noting, study: str) -> Row:
-    """A claim and its verdict. Evidence: its own figure, the tables of its formula, others that it read."""
+    """Row of a claim and its verdict; evidence: its figure, the tables of its formula, other tables read."""
     said = judged(claim, tables, study)
     asked = [one.table for one in getattr(claim.value, "asks", ()) if one.table in tables.read]
     files = [claim.evidence, *(f"{study}/{name}.csv" for name in dict.fromkeys([*asked, *tables.read]))]
@@ -234,7 +234,7 @@ def row(claim: Claim, tables: Noting, study: str) -> Row:
 def judged(claim: Claim, tables: Tables, study: str = "") -> Row:
     """Measured value, error, verdict and reason of one claim.
 
-    Raises WrongQuestion: a column or a table that the claim asks for is not there.
+    Raises WrongQuestion: a column or a table that the claim asks for does not exist.
     """
     unknown = {"measured": math.nan, "err": math.nan, "verdict": "undecidable"}
     if claim.value is None:
@@ -243,7 +243,7 @@ def judged(claim: Claim, tables: Tables, study: str = "") -> Row:
         value, err = map(float, claim.value(tables))
     except CannotTell as why:
         return {**unknown, "reason": str(why)}
-    except (OtherTable, KeyError, AttributeError, NameError) as error:      # pandas names a column by any
+    except (OtherTable, KeyError, AttributeError, NameError) as error:      # raised for a missing column
         words = f"study {study}, claim {claim.id}, {claim.value}: {error.args[0]}; correct the claim"
         raise WrongQuestion(words) from error
     except Exception as error:
@@ -257,7 +257,7 @@ def judged(claim: Claim, tables: Tables, study: str = "") -> Row:
 
 
 def put_claims(path: Path, rows: Sequence[Row]) -> None:
-    """Replace the claims of one study in results/claims.csv; those of others stay."""
+    """Replace the claims of one study in results/claims.csv; claims of other studies stay."""
     claims = pd.DataFrame(rows, columns=list(COLUMNS))
     with locked(path.parent/"raw"):     # several studies write into one file
         if path.exists():

@@ -1,8 +1,8 @@
-"""A transport to the workers of a Dask cluster that is there already, known by the address of its scheduler.
+"""Transport of cases to the workers of a running Dask cluster, given by the address of its scheduler.
 
-A cluster shares the code with the study and nothing else, no disk either: a case travels to a worker, its
-outcome comes back as text. Dask gives a case whose worker is lost to another one, as often as the scheduler
-allows (``allowed-failures``). ``make worker SCHEDULER=tcp://...`` starts a worker, for one case at a time.
+The cluster shares only the code with the study, and no disk: a case is sent to a worker, which returns the
+outcome as text. If a worker is lost, Dask gives its case to another one, as often as the scheduler allows
+(``allowed-failures``). ``make worker SCHEDULER=tcp://...`` starts a worker, for one case at a time.
 """
 import io
 import os
@@ -33,11 +33,11 @@ WAY_OUT = "make worker SCHEDULER=tcp://..., in an up-to-date copy of this reposi
 
 
 class Cancelled(BaseException):
-    """Nobody waits for this case any more: no ``except Exception`` takes it for a failure."""
+    """Ends a case that nobody waits for any more; ``except Exception`` does not take it for a failure."""
 
 
 def check_scheduler(address: str) -> str:
-    """The address itself. Raises ValueError: it is not one of a scheduler."""
+    """Return the address. Raises ValueError: it is not the address of a scheduler."""
     if address and not ADDRESS.fullmatch(address):
         raise ValueError(f"SCHEDULER={address} is no address of a Dask scheduler: give tcp://host:port, or "
                          "nothing to compute on this machine")
@@ -45,12 +45,12 @@ def check_scheduler(address: str) -> str:
 
 
 class Cluster:
-    """A place for each worker that there is now. Closed, the cluster gives up what was not finished."""
+    """Transport with a place for each worker that is connected now. `close` abandons unfinished cases."""
 
     def __init__(self, address: str, bar: Bar):
         self.client, self.bar = connected(address), bar
         self.running: dict[Future, tuple[int, str]] = {}
-        self.complete = True        # no need to say that workers are missing
+        self.complete = True        # False while there is no worker, which is reported once
 
     def places(self) -> int:
         try:
@@ -63,7 +63,7 @@ class Cluster:
         return workers
 
     def submit(self, number: int, case: Case) -> None:
-        # a lambda travels as code: the scheduler, which opens it, needs no copy of the repository
+        # a lambda is sent as code: the scheduler, which unpacks it, needs no copy of the repository
         future = self.client.submit(lambda *sent: import_module("studies.kit.cluster").perform(*sent),
                                     packed(case), csvfile.versions(), pure=False)
         self.running[future] = number, case.label
@@ -80,7 +80,7 @@ class Cluster:
 
 
 def connected(address: str) -> "Client":
-    """A connection to the scheduler."""
+    """Connection to the scheduler. Raises CannotRun: it does not answer, or Dask is not installed."""
     try:
         from distributed import Client
     except ImportError as error:
@@ -95,7 +95,7 @@ def connected(address: str) -> "Client":
 
 
 def outcome(future: "Future", label: str) -> str | Failure:
-    """What a worker sends: the outcome as text, or a failure."""
+    """Result of a worker: the outcome as text, or a failure. Raises CannotRun: the cluster itself failed."""
     from distributed import KilledWorker
     try:
         return future.result()
@@ -104,12 +104,12 @@ def outcome(future: "Future", label: str) -> str | Failure:
         message = (f"{count} workers died while they ran it, the last one {last}, perhaps for want of "
                    "memory: dask worker --memory-limit gives more")
         return Failure(label, message, story=str(error))
-    except Exception as error:      # failures of cases are handed back: this is trouble of the cluster
+    except Exception as error:      # of the cluster: a worker returns failures of cases, it raises none
         raise CannotRun(f"{error}: {WAY_OUT}" if future.status == "error" else NO_ANSWER) from error
 
 
 class Pack(pickle.Pickler):
-    """Names the module of what the script that was started defines: there, another is __main__."""
+    """Pickler that refers to definitions of __main__ by module name, as a worker has another __main__."""
 
     def reducer_override(self, thing: Any) -> Any:
         if getattr(thing, "__module__", "") == "__main__" and hasattr(thing, "__qualname__"):
@@ -118,18 +118,18 @@ class Pack(pickle.Pickler):
 
 
 def packed(case: Case) -> bytes:
-    """A case with its key, as bytes."""
+    """A case as bytes, together with its key."""
     file, _ = io.BytesIO(), case.key
     Pack(file).dump(case)
     return file.getvalue()
 
 
 def perform(sent: bytes, versions: str) -> str | Failure:
-    """In a worker: run a case with the code and the libraries of the study; its outcome as text.
+    """In a worker: run a case with the code and libraries of the study; its outcome as text, or a failure.
 
-    Checkpoints lie in a folder of the worker, as long as it lives.
+    Checkpoints are in a folder of the worker and are lost when the worker ends.
 
-    Raises CannotRun: This worker cannot run it as the study would.
+    Raises CannotRun: threads, libraries or code of this worker differ from those of the study.
     """
     from distributed import get_worker
     worker = get_worker()
@@ -144,11 +144,11 @@ def perform(sent: bytes, versions: str) -> str | Failure:
 
 
 def check_worker(worker: "Worker", versions: str) -> None:
-    """Refuse a worker whose results or times would be others than those of the study's own processes."""
+    """Raise CannotRun if the worker runs several cases or threads at once, or has other library versions."""
     name = f"worker {worker.address}"
     if worker.state.nthreads != 1:
         raise CannotRun(f"{name} runs {worker.state.nthreads} cases at once: it needs --nthreads 1")
-    os.environ.setdefault("NUMBA_NUM_THREADS", "1")     # Dask sets the others
+    os.environ.setdefault("NUMBA_NUM_THREADS", "1")     # Dask sets the other variables
     if more := [variable for variable in THREADS if os.environ.get(variable) != "1"]:
         raise CannotRun(f"{name} computes with more threads than one: it needs {'=1 '.join(more)}=1")
     own = csvfile.versions()
@@ -157,7 +157,7 @@ def check_worker(worker: "Worker", versions: str) -> None:
 
 
 def unpacked(sent: bytes, worker: "Worker") -> Case:
-    """The case that was sent, if it means the same here."""
+    """The case that was sent. Raises CannotRun: it cannot be loaded here, or has another key."""
     other = f"worker {worker.address} has other code than the study"
     try:
         case = pickle.loads(sent)
@@ -169,7 +169,7 @@ def unpacked(sent: bytes, worker: "Worker") -> Case:
 
 
 def ending(worker: "Worker") -> Report:
-    """What a case reports to: it ends the case when nobody waits for it."""
+    """Progress report of a case: raises Cancelled in the case when nobody waits for it any more."""
     task = worker.get_current_task()
 
     def report(fraction: float) -> None:

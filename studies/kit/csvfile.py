@@ -1,4 +1,4 @@
-"""CSV below a head of comments: where numbers come from, which columns are text. Large files are packed."""
+"""CSV below a head of comments: origin of the numbers, names of text columns. Large files are gzipped."""
 import fcntl
 import gzip
 import os
@@ -18,13 +18,13 @@ import pandas as pd
 
 from studies.kit.key import PACKAGES, ROOT
 
-DIGITS = "%.9g"     # of numbers in tables
-TEXT = "# text columns:"                    # what the head tells programs
-LIBRARIES = ("numpy", "scipy", "numba", "py-pde")     # whose versions a head tells
+DIGITS = "%.9g"     # format of numbers in tables
+TEXT = "# text columns:"                    # line of the head that programs read
+LIBRARIES = ("numpy", "scipy", "numba", "py-pde")     # whose versions the head has
 AGAIN = "remove it and run the study again: finished cases are kept"
-EMPTY = "(none)"                            # an empty text: an empty cell is a number that is missing
+EMPTY = "(none)"                            # stands for an empty text: an empty cell is a missing number
 NOT_PACKED = (gzip.BadGzipFile, EOFError, zlib.error)
-#: texts that pandas takes for a missing number
+#: texts that pandas reads as a missing number
 MISSING = ("", "NA", "N/A", "n/a", "NULL", "null", "None", "<NA>")
 
 
@@ -33,10 +33,10 @@ class OtherTable(ValueError):
 
 
 def read(path: Path, columns: Iterable[str] = ()) -> pd.DataFrame:
-    """A table from CSV, packed or not; empty text is "", an empty number NaN.
+    """Read a table from CSV, gzipped or not; an empty text is "", a missing number NaN.
 
-    Raises FileNotFoundError, OtherTable: there is no such file; it is no table, has text among numbers, or
-    lacks some of ``columns``.
+    Raises FileNotFoundError. OtherTable: the file is no table, has text among numbers, or lacks some of
+    ``columns``.
     """
     path = Path(path)
     if not path.exists():
@@ -49,7 +49,7 @@ def read(path: Path, columns: Iterable[str] = ()) -> pd.DataFrame:
         frame[text] = frame[text].replace(EMPTY, "").fillna("")
         for name in frame.columns.difference(text) if text else ():
             pd.to_numeric(frame[name])
-    except (ValueError, LookupError, *NOT_PACKED) as error:     # of pandas, and of letters that are none
+    except (ValueError, LookupError, *NOT_PACKED) as error:     # of pandas, and of bytes that are no text
         raise OtherTable(f"{path} is no table ({str(error).strip()}): {AGAIN}") from error
     if missing := [name for name in columns if name not in frame]:
         raise OtherTable(f"{path} has no column {', '.join(missing)}: it has an older layout; {AGAIN}")
@@ -57,12 +57,12 @@ def read(path: Path, columns: Iterable[str] = ()) -> pd.DataFrame:
 
 
 def content(path: Path) -> str:
-    """The text of a file, packed (.gz) or not."""
+    """Text of a file, gzipped (.gz) or not."""
     return gzip.decompress(path.read_bytes()).decode() if path.suffix == ".gz" else path.read_text()
 
 
 def is_number(text: str) -> bool:
-    """Whether a column of numbers, or of True and False, may hold this."""
+    """Whether a text reads as a number, True or False."""
     try:
         float(text)
     except ValueError:
@@ -71,9 +71,9 @@ def is_number(text: str) -> bool:
 
 
 def write(path: Path, frame: pd.DataFrame, *, head: Iterable[str]) -> None:
-    """CSV below ``head``, one comment a line. A table that did not change keeps the head it was written with.
+    """Write CSV below ``head``, one comment per line. An unchanged table keeps its file with the old head.
 
-    Raises ValueError: A column mixes text and numbers, or a text holds the sign of a comment.
+    Raises ValueError: a column mixes text and numbers, or a text has a #, which begins a comment.
     """
     text = [str(name) for name in frame if is_text(frame[name], path)]
     filled = frame.assign(**{name: frame[name].fillna("").replace("", EMPTY) for name in text})
@@ -81,15 +81,15 @@ def write(path: Path, frame: pd.DataFrame, *, head: Iterable[str]) -> None:
     unchanged = path.exists() and content(path).endswith(body)
     if not unchanged:
         whole = "".join(f"# {line}\n" for line in head) + body
-        # of no time: the same table has the same bytes
+        # mtime=0: the same table has the same bytes
         write_atomic(path, gzip.compress(whole.encode(), mtime=0) if path.suffix == ".gz" else whole)
 
 
 @contextmanager
 def locked(folder: Path, busy: str = "") -> Iterator[None]:
-    """Nobody else has the lock of a folder meanwhile; it ends with the process, too.
+    """Hold the lock of a folder; it is also released when the process ends.
 
-    Waits for who has it, or raises BlockingIOError with the message ``busy``.
+    Waits while another process has it, or raises BlockingIOError with the message ``busy``, if given.
     """
     folder.mkdir(parents=True, exist_ok=True)
     with (folder/"lock").open("a") as file:
@@ -101,7 +101,7 @@ def locked(folder: Path, busy: str = "") -> Iterator[None]:
 
 
 def is_text(column: pd.Series, path: Path) -> bool:
-    """True for text, False for numbers; anything in between is refused."""
+    """True for a column of text, False for numbers. Raises ValueError: it mixes both, or a text has a #."""
     texts = [value for value in column if isinstance(value, str)]
     if texts and len(texts) < column.count():
         raise ValueError(f"column {column.name} of {path.name} mixes numbers with text such as {texts[0]!r}: "
@@ -112,14 +112,14 @@ def is_text(column: pd.Series, path: Path) -> bool:
 
 
 def write_atomic(path: Path, content: str | bytes) -> None:
-    """The whole content or nothing: an interrupt or a full disk leaves the old file as it was."""
+    """Write the whole content or nothing: an interrupt or a full disk leaves the old file unchanged."""
     part = path.with_name(f".{path.name}.{os.getpid()}")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         with part.open("wb") as file:
             file.write(content.encode() if isinstance(content, str) else content)
             file.flush()
-            os.fsync(file.fileno())     # else the name may reach the disk before what it names
+            os.fsync(file.fileno())     # else the new name may reach the disk before the content
         os.replace(part, path)
     except OSError as error:
         raise OSError(f"{path} cannot be written ({error.strerror}) and is as it was: make room there, or "
@@ -131,17 +131,17 @@ def write_atomic(path: Path, content: str | bytes) -> None:
 
 @cache
 def commit() -> str:
-    """Commit of the code, with ``-dirty`` when the packages hold changes that it lacks."""
+    """Commit of the code, with ``-dirty`` if the packages have uncommitted changes."""
     short = git("rev-parse", "--short=10", "HEAD")
     if not short:
         return "unknown"
-    if is_number(short):        # 5988628503, 12345e6789: a column of it would read back as numbers
+    if is_number(short):        # 5988628503, 12345e6789: would be read back as numbers
         short = git("rev-parse", "HEAD")
     return short + ("-dirty" if git("status", "--porcelain", "--", *PACKAGES) else "")
 
 
 def git(*words: str) -> str:
-    """What git answers; empty without git or outside a repository."""
+    """Output of a git command; empty without git or outside a repository."""
     command = ["git", "-C", str(ROOT), *words]
     try:
         return subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()
@@ -150,13 +150,13 @@ def git(*words: str) -> str:
 
 
 def versions() -> str:
-    """Python and the libraries that compute."""
+    """Versions of Python and of LIBRARIES."""
     libraries = [f"{name} {version(name)}" for name in LIBRARIES]
     return ", ".join([f"python {platform.python_version()}", *libraries])
 
 
 def cpu() -> str:
-    """Model and number of cores."""
+    """Processor model and number of cores."""
     info = Path("/proc/cpuinfo")
     models = re.findall(r"model name\s*:\s*(.*\S)", info.read_text()) if info.exists() else []
     model = models[0] if models else platform.machine()
@@ -164,5 +164,5 @@ def cpu() -> str:
 
 
 def now() -> str:
-    """Time in UTC to the minute."""
+    """Current time in UTC to the minute."""
     return datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC")

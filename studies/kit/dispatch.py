@@ -1,6 +1,6 @@
-"""One loop that hands out cases and keeps their outcomes; a transport says where the cases run.
+"""Loop that distributes cases and stores their outcomes; a transport determines where the cases run.
 
-Two transports are here: this process, and workers of this machine with one thread each.
+Two transports are defined here: this process, and workers on this machine with one thread each.
 """
 import multiprocessing
 import os
@@ -21,7 +21,7 @@ from tqdm import tqdm
 from studies.kit.case import Case
 from studies.kit.store import CannotRun, Failure, attempt, keep, same_code
 
-#: fractions done that a running case may have
+#: least and largest fraction done of a running case
 BEGUN, ENDING = 1e-9, 1 - 1e-9
 FORMAT = "{desc} {percentage:3.0f}%|{bar}| {elapsed}, left {remaining} {postfix}"
 #: number of a case, and its outcome as text or a failure
@@ -30,17 +30,17 @@ LOOK = 0.1      # seconds for which a transport waits for outcomes
 THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
 SPAWN = multiprocessing.get_context("spawn")
 CHANGED = "the code was changed before this worker loaded it: start the study again"
-TRIES = 3       # workers that a case gets if they die before they begin it
+TRIES = 3       # attempts at a case whose worker dies before it begins the case
 NO_WORKER = "worker processes end before they run a case: --workers 1 shows why"
 NOT_BEGUN = f"{TRIES} worker processes died before they began it: --workers 1 shows why"
 DIED = "its worker process died, perhaps for want of memory: fewer workers need less (--workers 1)"
 
 
 class Bar:
-    """Progress over the estimated cost of the cases, from the fraction done of each."""
+    """Progress bar over the estimated cost of all cases, from the fraction done of each."""
 
     def __init__(self, cases: Sequence[Case], name: str):
-        self.cases, self.costs = cases, [case.cost for case in cases]    # once: many cases, many drawings
+        self.cases, self.costs = cases, [case.cost for case in cases]    # once: the bar is drawn often
         self.fractions = SPAWN.RawArray("d", len(cases))        # worker processes write into it
         seconds = 0.5 if sys.stderr.isatty() else 60.0
         self.line = tqdm(
@@ -48,12 +48,12 @@ class Bar:
             smoothing=0, dynamic_ncols=True, mininterval=seconds, maxinterval=seconds, miniters=0)
 
     def tell(self, number: int, fraction: float) -> None:
-        """A case is so far; what comes after its outcome is dropped."""
+        """Set the fraction done of a case, unless its outcome has come."""
         if self.fractions[number] < 1:
             self.fractions[number] = between(fraction)
 
     def show(self) -> None:
-        """Draw, if it is time to."""
+        """Draw the bar, if it is time to."""
         labels = [case.label for case, fraction in zip(self.cases, self.fractions) if 0 < fraction < 1]
         done = sum(cost*fraction for cost, fraction in zip(self.costs, self.fractions) if fraction > BEGUN)
         self.line.set_postfix_str("; ".join(labels), refresh=False)
@@ -61,16 +61,16 @@ class Bar:
 
 
 def between(fraction: float) -> float:
-    """The fraction of a case that has begun and not ended."""
+    """A fraction, limited to the range of a running case."""
     return min(max(fraction, BEGUN), ENDING)
 
 
 def dispatch(cases: Sequence[Case], folder: Path, name: str,
              connect: Callable[[Bar], "Transport"]) -> list[Failure]:
-    """Run cases in their order and keep their outcomes; those that time themselves come last, one by one.
+    """Run cases in their order, those ``alone`` last and one by one; store outcomes and return failures.
 
-    Each of the two groups has a transport of its own: times are taken in fresh processes.
-    Raises KeyboardInterrupt, CannotRun: what ran is ended, what is finished is kept.
+    Each of the two groups has its own transport, so that times are measured in fresh processes.
+    Raises KeyboardInterrupt, CannotRun: running cases are ended, finished ones are kept.
     """
     bar, failures = Bar(cases, name), []
     numbers = range(len(cases))
@@ -87,7 +87,7 @@ def dispatch(cases: Sequence[Case], folder: Path, name: str,
 
 def drain(transport: "Transport", cases: Sequence[Case], todo: deque[int], limit: int,
           bar: Bar) -> Iterator[CaseEnd]:
-    """Give each place a case, ``limit`` at once, until all have ended; numbers and outcomes as they come."""
+    """Run all cases of ``todo``, at most ``limit`` at once; yield number and outcome of each as it ends."""
     running = 0
     while todo or running:
         places = min(transport.places(), limit)
@@ -103,16 +103,16 @@ def drain(transport: "Transport", cases: Sequence[Case], todo: deque[int], limit
 
 
 class Transport(Protocol):
-    """Takes cases, by their numbers, to where they run, and brings their outcomes back."""
+    """Interface to the place where cases run: takes cases with their numbers and returns outcomes."""
 
-    def places(self) -> int: ...                                    # how many may run at once, now
-    def submit(self, number: int, case: Case) -> None: ...          # begin one; there is a place
-    def ready(self) -> Iterable[CaseEnd]: ...     # those that ended; waits a moment for one
-    def close(self) -> None: ...                                    # end what still runs
+    def places(self) -> int: ...                                    # how many cases may run at once now
+    def submit(self, number: int, case: Case) -> None: ...          # begin a case; a place is free
+    def ready(self) -> Iterable[CaseEnd]: ...     # cases that have ended; waits a moment for one
+    def close(self) -> None: ...                                    # end the cases that still run
 
 
 class Here:
-    """This process: a case has ended when it is submitted."""
+    """Transport within this process: `submit` runs a case to its end."""
 
     def __init__(self, folder: Path, bar: Bar):
         self.folder, self.bar = folder, bar
@@ -136,7 +136,7 @@ class Here:
 
 
 class Processes:
-    """So many workers at most; one that dies takes its case along and no other."""
+    """Transport to ``count`` worker processes at most; a worker that dies loses only its own case."""
 
     def __init__(self, count: int, folder: Path, bar: Bar):
         self.count, self.folder, self.fractions = count, folder, bar.fractions
@@ -152,22 +152,22 @@ class Processes:
         pipe = idle[0] if idle else self.start()
         self.busy[pipe] = number, case
         self.tries[number] += 1
-        with suppress(OSError):     # of a worker that has died: `ready` will find it
+        with suppress(OSError):     # the worker has died: `ready` notices it
             pipe.send((number, case))
 
     def start(self) -> Connection:
-        """A new worker, with one thread; Ctrl-C is left to this process, which ends it."""
+        """Start a worker with one thread. Ctrl-C is blocked in it: this process ends it."""
         here, there = SPAWN.Pipe()
         worker = SPAWN.Process(target=serve, args=(there, self.folder, self.fractions), daemon=True)
-        os.environ.update(dict.fromkeys(THREADS, "1"))      # read when libraries are loaded, here they are
-        resource_tracker.ensure_running()       # starts with the first process otherwise, and unblocks
+        os.environ.update(dict.fromkeys(THREADS, "1"))      # libraries read it when they are loaded
+        resource_tracker.ensure_running()       # else the first worker starts it and unblocks SIGINT
         before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
         try:
             worker.start()
             self.workers[here] = worker
         finally:
             signal.pthread_sigmask(signal.SIG_SETMASK, before)
-        there.close()       # when the worker dies, nobody has that end
+        there.close()       # else the pipe stays open when the worker dies
         return here
 
     def ready(self) -> Iterator[CaseEnd]:
@@ -175,7 +175,7 @@ class Processes:
             assert isinstance(pipe, Connection)
             try:
                 result: str | Failure | None = pipe.recv()
-            except (EOFError, OSError):     # it died, perhaps without a case
+            except (EOFError, OSError):     # the worker died, perhaps without a case
                 result = None
                 self.workers.pop(pipe).join()
             if pipe in self.busy:
@@ -186,7 +186,7 @@ class Processes:
                     yield number, result or self.died(number, case)
 
     def died(self, number: int, case: Case) -> Failure:
-        """The failure of a case whose worker died. Raises CannotRun: No worker has begun a case."""
+        """Failure of a case whose worker died. Raises CannotRun: no worker has begun any case."""
         if not any(self.fractions):
             raise CannotRun(NO_WORKER)
         return Failure(case.label, DIED if self.fractions[number] else NOT_BEGUN)
@@ -198,16 +198,16 @@ class Processes:
 
 
 def serve(pipe: Connection, folder: Path, fractions: MutableSequence[float]) -> None:
-    """In a worker: run the cases that come."""
+    """In a worker: run the cases that the pipe brings, and send back their outcomes."""
     threading.Thread(target=end_with_parent, daemon=True).start()
-    with suppress(EOFError, BrokenPipeError):       # the study is no more
+    with suppress(EOFError, BrokenPipeError):       # the study has ended
         while True:
             number, case = pipe.recv()
             pipe.send(result_of(number, case, folder, fractions))
 
 
 def result_of(number: int, case: Case, folder: Path, fractions: MutableSequence[float]) -> str | Failure:
-    """In a worker: run case ``number`` with the code that the study began with."""
+    """In a worker: outcome of a case, or a failure if the code has changed since the study began."""
     def report(fraction: float) -> None:
         fractions[number] = between(fraction)
     report(0.0)
@@ -215,7 +215,7 @@ def result_of(number: int, case: Case, folder: Path, fractions: MutableSequence[
 
 
 def end_with_parent() -> None:
-    """In a worker: a study that was killed leaves no workers behind."""
+    """In a worker: end when the study ends, even if it was killed."""
     parent = multiprocessing.parent_process()
     if parent:
         parent.join()

@@ -1,4 +1,4 @@
-"""The figures of a study, and their look: told apart by colour, marker and line, in grey too."""
+"""Figures of a study and their style: series differ in colour, marker and line, so in grey, too."""
 import io
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -19,16 +19,16 @@ from studies.kit.table import Tables, check_once
 
 Numbers = Sequence[float] | np.ndarray | pd.Series
 
-#: Okabe and Ito's colours, which colour-blind readers can tell apart; a dark red in place of their yellow
+#: Okabe and Ito's colours, which colour-blind readers can tell apart, with dark red instead of yellow
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#882255")
 MARKERS = ("o", "s", "^", "D", "v", "P", "X", "*")
 LINES = ("-", "--", "-.", ":", (0, (5, 1)), (0, (3, 1, 1, 1)), (0, (1, 1)), (0, (8, 3)))
-#: how markers of the same kind are filled
+#: fill styles of markers of the same shape
 FILLS: tuple[dict[str, str], ...] = ({}, {"markerfacecolor": "white"}, *(
     {"fillstyle": half, "markerfacecoloralt": "white"} for half in ("left", "bottom")))
 
-DIGIT = 6.4     # points that a digit of a tick takes
-GROWS = 1.15    # axes, at least, when the page is laid out
+DIGIT = 6.4     # width of a digit of a tick label  [points]
+GROWS = 1.15    # least factor by which the layout enlarges axes
 BELOW = -0.42   # from axes to a legend below their label  [inches]
 
 matplotlib.rcParams.update({
@@ -47,7 +47,7 @@ def figure(rows: int = 1, columns: int = 1, *, width: float = 4.5, height: float
 
 
 def look(number: int) -> dict[str, Any]:
-    """Colour, marker and line of series ``number``, for a series that looks the same in every figure."""
+    """Colour, marker and line of series ``number``, the same in every figure."""
     number %= len(COLOURS)
     return {"color": COLOURS[number], "marker": MARKERS[number], "linestyle": LINES[number]}
 
@@ -59,13 +59,13 @@ def errorbar(axes: Axes, x: Numbers, y: Numbers, err: Numbers, *, number: int = 
 
 
 def bars(axes: Axes, rows: pd.DataFrame, x: str, y: str, **more: Any) -> None:
-    """A column with its errors over another."""
+    """Plot column y with its errors against column x."""
     rows = rows.sort_values(x)
     errorbar(axes, rows[x], rows[y], rows[f"{y}_err"], **more)
 
 
 def plain_ticks(axes: Axes, values: Sequence[float]) -> None:
-    """Ticks along x at values, the first ones with their number, others without where numbers would touch."""
+    """Set ticks along x at these values; a tick has no label if it would touch an earlier one."""
     scale = np.log10 if axes.get_xscale() == "log" else float
     low, high = map(scale, axes.get_xlim())
     points = 72*width(axes)/(high - low)
@@ -80,13 +80,13 @@ def plain_ticks(axes: Axes, values: Sequence[float]) -> None:
 
 
 def ticks(axes: Axes, values: Sequence[float]) -> None:
-    """Along x at these numbers only."""
+    """Set ticks along x at these values only, all with labels."""
     axes.set_xticks(values, labels=[f"{value:g}" for value in values])
     axes.minorticks_off()
 
 
 def logarithmic(axes: Axes, along: Sequence[float]) -> None:
-    """Both scales, with numbers at some places along x, and at more than powers of ten where y has few."""
+    """Set log scales, with labels at these values along x, and at more than powers of ten if y has few."""
     axes.set(xscale="log", yscale="log")
     ticks(axes, along)
     low, high = axes.get_ylim()
@@ -95,7 +95,7 @@ def logarithmic(axes: Axes, along: Sequence[float]) -> None:
 
 
 def numbered(axis: Any, steps: tuple[float, ...] = ()) -> None:
-    """Numbers at these steps of each power of ten, or as many as have room, no others, written out."""
+    """Label a log axis at these multiples of powers of ten only (default: as many as fit), no exponents."""
     low, high = axis.get_view_interval()
     steps = steps or ((1,) if high > 100*low else (1, 2, 5))
     axis.set_major_locator(LogLocator(subs=steps) if high > 5*low else MaxNLocator(5))
@@ -104,19 +104,19 @@ def numbered(axis: Any, steps: tuple[float, ...] = ()) -> None:
 
 
 def width(axes: Axes) -> float:
-    """About how many inches the axes will be wide when the page is laid out."""
+    """Approximate width of the axes after the layout [inches]."""
     inches = axes.get_window_extent().transformed(axes.figure.dpi_scale_trans.inverted()).width
     return float(GROWS*inches)
 
 
 def below(axes: Axes, **more: Any) -> None:
-    """The legend below the axes and their label, where it covers no data."""
+    """Put the legend below the axes and their label, where it covers no data."""
     lower = axes.transAxes + ScaledTranslation(0, BELOW, axes.figure.dpi_scale_trans)
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, 0), bbox_transform=lower, **more)
 
 
 def save(page: Figure, path: Path) -> None:
-    """Write a PNG, all or nothing; the same figure gives the same bytes. Raises ValueError: it is no PNG."""
+    """Write a PNG, all or nothing; the same figure gives the same bytes. Raises ValueError: path not .png."""
     if path.suffix != ".png":
         raise ValueError(f"{path.name} ends in {path.suffix or 'nothing'}: give a name that ends in .png, or "
                          f"draw without a name and .savefig({path.name!r}) the figure")
@@ -124,7 +124,7 @@ def save(page: Figure, path: Path) -> None:
 
 
 def compact(page: Figure) -> bytes:
-    """A PNG of 256 colours, a third as large: blends of colours move by less than the eye sees."""
+    """PNG with 256 colours, a third of the size: the eye does not see that blended colours change."""
     full, small = io.BytesIO(), io.BytesIO()
     page.savefig(full, format="png")
     picture = Image.open(full)
@@ -135,41 +135,41 @@ def compact(page: Figure) -> bytes:
 
 
 class Drawing(NamedTuple):
-    """A figure that needs rows of all its tables. draw : takes their frames; its docstring is the caption."""
+    """A figure that needs rows in all its tables. draw : takes their frames; its docstring is the caption."""
     name: str
     tables: tuple[str, ...]
     draw: Callable[..., Figure | None]
 
     def page(self, tables: Tables) -> Figure | None:
-        """The figure; none where a table lacks rows, or has none to show."""
+        """The figure; None if a table has no rows, or none to show."""
         if not all(len(tables.get(name, ())) for name in self.tables):
             return None
         return self.draw(*(tables[name] for name in self.tables))
 
 
 class Overview(Drawing):
-    """A figure of what there is of its tables. draw : takes `Tables`; its docstring is the caption."""
+    """A figure of those of its tables that exist. draw : takes `Tables`; its docstring is the caption."""
 
     def page(self, tables: Tables) -> Figure | None:
-        """The figure; none where the tables have nothing to show."""
+        """The figure; None if the tables have nothing to show."""
         there = {name: tables[name] for name in self.tables if name in tables}
         return self.draw(Tables(there))
 
 
 class Drawings:
-    """Drawings and overviews, called with tables as one function that gives figures by name."""
+    """Drawings and overviews of a study; a call with tables returns figures by name."""
 
     def __init__(self, *drawings: Drawing):
         check_once("figures", (drawing.name for drawing in drawings))
         self.drawings = drawings
 
     def __call__(self, tables: Tables) -> dict[str, Figure]:
-        """The figures for which there are rows."""
+        """Figures by name, those whose tables have rows to show."""
         pages = {drawing.name: drawing.page(tables) for drawing in self.drawings}
         return {name: page for name, page in pages.items() if page is not None}
 
 
 def caption(drawing: Drawing) -> str:
-    """First sentences of what draws it, up to an empty line."""
+    """First paragraph of the docstring of ``draw``, or the figure's name."""
     text = (drawing.draw.__doc__ or drawing.name.replace("_", " ")).split("\n\n")[0]
     return " ".join(text.split())

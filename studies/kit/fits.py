@@ -1,4 +1,4 @@
-"""Fits, each once: polynomials and power laws by least squares, limits of fine grids; errors are of 95 %."""
+"""Polynomials and power laws by least squares, limits of fine grids; errors are 95 % half widths."""
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -12,16 +12,16 @@ from scipy.special import stdtrit
 from studies.kit.stats import CannotTell, Measured
 
 Numbers = Sequence[float] | np.ndarray | pd.Series
-ORDERS = 0.1, 12.0      # between which an observed order is looked for
-NEAR = 0.25             # of the assumed order: the grids are fine enough for it
+ORDERS = 0.1, 12.0      # range in which an observed order is sought
+NEAR = 0.25             # an observed order nearer to 2 means that the grids are fine enough to assume 2
 
 
 @dataclass(frozen=True)
 class Fit:
     """y = c_0 + c_1 x + c_2 x^2 ... by least squares.
 
-    coefficients : (p,), from the constant on. residuals : (n,).
-    spread : (p, p), their covariance, such that sqrt(v@spread@v) is the 95 % half width of v@coefficients.
+    coefficients : (p,), constant first. residuals : (n,).
+    spread : (p, p), covariance, scaled so that sqrt(v@spread@v) is the 95 % half width of v@coefficients.
     """
 
     coefficients: np.ndarray
@@ -29,35 +29,35 @@ class Fit:
     residuals: np.ndarray
 
     def along(self, v: Numbers) -> Measured:
-        """The combination v@coefficients and its error."""
+        """Linear combination v@coefficients with its error."""
         v = np.asarray(v, float)
         return Measured(float(v@self.coefficients), float(np.sqrt(v@self.spread@v)))
 
     def at(self, x: float) -> Measured:
-        """The curve read at x."""
+        """Value of the curve at x with its error."""
         return self.along(x**np.arange(len(self.coefficients)))
 
     @property
     def slope(self) -> Measured:
-        """c_1."""
+        """Coefficient c_1 with its error."""
         return self.along(np.arange(len(self.coefficients)) == 1)
 
     @property
     def intercept(self) -> Measured:
-        """c_0."""
+        """Coefficient c_0 with its error."""
         return self.at(0.0)
 
 
 def linear(X: np.ndarray, y: Numbers, *, weight: Numbers | None = None, err: Numbers | None = None) -> Fit:
-    """Least squares of ``weight`` (y - X c), X (n, p), with the error that scatter about the curve tells.
+    """Least squares of ``weight`` (y - X c), X (n, p), with errors from the scatter about the curve.
 
     With w = diag(weight), A = (wX)^+ w:
 
         c = A y,   covariance = t^2 s^2 (X^T w^2 X)^-1 + A diag(err^2) A^T,   s^2 = |w (y - X c)|^2/(n - p)
 
-    t is Student's, of n - p degrees of freedom; ``err`` (n,) are errors of the values besides the scatter.
+    t is Student's factor for n - p degrees of freedom; ``err`` (n,) are further errors of the values.
 
-    Raises CannotTell: there are no more values than coefficients.
+    Raises CannotTell: there are not more values than coefficients.
     """
     y, p = np.asarray(y, float), X.shape[1]
     w = np.ones(len(y)) if weight is None else np.asarray(weight, float)
@@ -79,12 +79,12 @@ def linear(X: np.ndarray, y: Numbers, *, weight: Numbers | None = None, err: Num
 
 def polynomial(x: Numbers, y: Numbers, degree: int = 1, *, weight: Numbers | None = None,
                err: Numbers | None = None) -> Fit:
-    """The same of y = c_0 + c_1 x + c_2 x^2 ..."""
+    """Least-squares polynomial y = c_0 + c_1 x + c_2 x^2 ...; weight, err : as for `linear`."""
     return linear(vander(np.asarray(x, float), degree), y, weight=weight, err=err)
 
 
 def weighted(x: Numbers, y: Numbers, err: Numbers) -> Fit:
-    """Least squares of (y - c_0 - c_1 x)/err; the error is what those of the values leave."""
+    """Straight line by least squares of (y - c_0 - c_1 x)/err; its error is that propagated from ``err``."""
     y, err = np.asarray(y, float), np.asarray(err, float)
     X = vander(np.asarray(x, float), 1)
     wX = X/err[:, None]
@@ -94,21 +94,21 @@ def weighted(x: Numbers, y: Numbers, err: Numbers) -> Fit:
 
 
 def line(x: Numbers, y: Numbers, *, weight: Numbers | None = None, err: Numbers | None = None) -> Fit:
-    """A straight line; see `polynomial`."""
+    """Straight line by least squares; see `polynomial`."""
     return polynomial(x, y, 1, weight=weight, err=err)
 
 
 def power_law(x: Numbers, y: Numbers, err: Numbers | None = None) -> Fit:
-    """ln |y| against ln x: its slope is the power, of errors over spacings the order. err : of y."""
+    """Line of ln |y| against ln x: its slope is the power, or the order of errors in spacing. err : of y."""
     x, y = np.asarray(x, float), np.abs(np.asarray(y, float))
     relative = None if err is None else np.asarray(err, float)/y
     return line(np.log(x), np.log(y), err=relative)
 
 
 def crossing(pair: pd.DataFrame, column: str, level: float) -> tuple[float, float]:
-    """Cost at a level between the errors of two rows, and the half width of the interval of its logarithm.
+    """Cost (``column``) at which the error is ``level``, between two rows, and the half width of ln cost.
 
-    ln cost = (1 - s) ln cost_0 + s ln cost_1, s = ln(error_0/level)/ln(error_0/error_1); all have errors.
+    ln cost = (1 - s) ln cost_0 + s ln cost_1, s = ln(error_0/level)/ln(error_0/error_1); all are uncertain.
     """
     (first, last), (low, high) = np.log(pair.error), np.log(pair[column])
     s = (first - np.log(level))/(first - last)
@@ -119,7 +119,7 @@ def crossing(pair: pd.DataFrame, column: str, level: float) -> tuple[float, floa
 
 
 def grid_limit(sizes: Numbers, values: Numbers) -> Measured:
-    """Limit of infinitely fine grids, ``sizes`` in cells per length, from the three finest [Richardson].
+    """Limit of infinitely fine grids by `richardson`; ``sizes`` in cells per length.
 
     Raises CannotTell: there are fewer than three grids.
     """
@@ -131,8 +131,8 @@ def grid_limit(sizes: Numbers, values: Numbers) -> Measured:
 
 
 def four_grids(sizes: Numbers, values: Numbers) -> Measured:
-    """The same of four grids: what h^6 changes, through the four finest, tells how far off the limit of f + a
-    h^2 + b h^4 is. Its error is twice that, as what follows is less. With three, or another order: as above.
+    """Limit as in `grid_limit`. Its error is twice the change by a term in h^6 through the four finest grids,
+    as further terms change less; that of `grid_limit` for three grids or an order other than 2.
     """
     limit = grid_limit(sizes, values)
     f, h = finest(list(values), list(sizes), 4)
@@ -142,7 +142,7 @@ def four_grids(sizes: Numbers, values: Numbers) -> Measured:
 
 
 class Extrapolated(NamedTuple):
-    """Order on the three finest grids (nan: values do not converge), limit, and its uncertainty."""
+    """Order on the three finest grids (nan: values do not converge), limit, and error of the limit."""
     order: float
     limit: float
     error: float
@@ -151,10 +151,10 @@ class Extrapolated(NamedTuple):
 def richardson(values: Sequence[float], sizes: Sequence[float]) -> Extrapolated:
     """Limit of values for h = 1/size -> 0, sizes being cells per length in any order and ratio.
 
-    The three finest grids give f + a h^2 + b h^4. The error is the larger of the distances to two limits of
-    the two finest grids: with a alone, and with the order that is seen. Where that is more than NEAR off, its
-    own limit is given, with the whole distance to the finest grid for its error; where there is none, the
-    finest value with twice the spread of all three.
+    The limit is f of f + a h^2 + b h^4 through the three finest grids. Its error is the larger distance to
+    the limits of the two finest grids with order 2 and with the observed order. If the observed order is
+    more than NEAR from 2, the limit is the one with the observed order, and its error the distance to the
+    finest value. Without an observed order it is the finest value, with twice the range of all three.
     """
     f, h = finest(values, sizes)
     seen = observed_order(f, h)
@@ -169,7 +169,7 @@ def richardson(values: Sequence[float], sizes: Sequence[float]) -> Extrapolated:
 
 
 def finest(values: Sequence[float], sizes: Sequence[float], count: int = 3) -> tuple[np.ndarray, np.ndarray]:
-    """The values and spacings of the three finest grids, or of more, coarse to fine."""
+    """Values and spacings of the ``count`` finest grids, coarse to fine. Raises ValueError: wrong input."""
     f, n = np.asarray(values, float), np.asarray(sizes, float)
     if f.shape != n.shape or f.ndim != 1 or len(set(n)) < 3 or len(set(n)) < len(n):
         raise ValueError(f"{f.size} values on sizes {n.tolist()}: give one value for each of three or more "
@@ -181,13 +181,13 @@ def finest(values: Sequence[float], sizes: Sequence[float], count: int = 3) -> t
 
 
 def eliminate(f: np.ndarray, h: np.ndarray, *powers: float) -> float:
-    """The constant of f = constant + sum of a_p h^p, one grid more than powers."""
-    terms = [(h/h[-1])**p for p in powers]      # relative to the finest: keeps the system well scaled
+    """The constant of f = constant + sum of a_p h^p through one grid more than powers."""
+    terms = [(h/h[-1])**p for p in powers]      # relative to the finest grid: well scaled
     return float(np.linalg.solve(np.array([np.ones(len(h)), *terms]).T, f)[0])
 
 
 def observed_order(f: np.ndarray, h: np.ndarray) -> float:
-    """p of f + a h^p through three grids, nan if there is none in ORDERS."""
+    """Order p of f + a h^p through three grids, nan if there is none in ORDERS."""
     coarse, fine = f[0] - f[1], f[1] - f[2]
 
     def misfit(p):

@@ -1,9 +1,9 @@
-"""Which definitions a result depends on, found without running anything, and their hash.
+"""Hash of the definitions that a result depends on, which are found from syntax without running anything.
 
-A case reaches its class, the functions and classes among its parameters, and whatever the syntax of these
-names, on and on through our packages. A formula registered with ``f.of(K)`` is reached when both f and K are,
-an entry of a table when it is named. So a definition that moves, a new one that no old one names, and a
-docstring change no key.
+A case reaches its class, the functions and classes among its parameters, and all definitions that these name,
+recursively through our packages. A formula registered with ``f.of(K)`` is reached when both f and K are, an
+entry of a table when it is named. So no key changes when a definition moves, when a new one is added that no
+old one names, or when a docstring changes.
 """
 import ast
 import hashlib
@@ -16,16 +16,16 @@ from studies.kit.syntax import ACTION, CASE, EVERYTHING, Dotted, Module, Place, 
 
 ROOT = Path(__file__).resolve().parents[2]
 PACKAGES = ("continuum", "particles", "studies")
-#: what only carries results about, but for the modules that compute some of their numbers
+#: modules that only handle results, and those among them that compute numbers of results
 CARRIERS, NUMBERS = "studies.kit.", ("studies.kit.stats", "studies.kit.timing")
-#: of a case: the order and the names of runs, not what they find
+#: members of a case that set order and names of runs, not their results
 ASIDE = ("cost", "label")
-#: what must be reached for an action to count, all of it
+#: places that must all be reached for an action to count
 Owners = frozenset[Place]
 
 
 def file_of(name: str, root: Path) -> Path | None:
-    """File of a module of our own packages, or of the script that a path names."""
+    """File of a module of our packages, or of a script named by its path; None for others."""
     if name.endswith(".py"):
         return Path(name)
     if name.split(".")[0] not in PACKAGES:
@@ -36,30 +36,30 @@ def file_of(name: str, root: Path) -> Path | None:
 
 
 def name_of(path: Path, root: Path = ROOT) -> str:
-    """Dotted name of the module in a file below a folder."""
+    """Dotted module name of a file below the folder ``root``."""
     parts = path.relative_to(root).with_suffix("").parts
     return ".".join(parts).removesuffix(".__init__")
 
 
 def followed(module: str) -> bool:
-    """Does what a module defines make a result another one?"""
+    """Whether definitions of a module may affect results."""
     return module in NUMBERS or not f"{module}.".startswith(CARRIERS)
 
 
 def digest(*pieces: str) -> str:
-    """One hash over texts."""
+    """One hash of several texts."""
     return hashlib.sha256("\0".join(pieces).encode()).hexdigest()
 
 
 class Code:
-    """The definitions in our packages below a folder, read once."""
+    """Definitions in our packages below a folder, each read once."""
 
     def __init__(self, root: Path = ROOT):
         self.root = root
         self.modules: dict[str, Module | None] = {}
         self.readings: dict[Place, Reading] = {}
         self.hashes: dict[frozenset[Place], str] = {}
-        self.actions: dict[Place, list[tuple[Owners, Place]]] = {}      # under each of their owners
+        self.actions: dict[Place, list[tuple[Owners, Place]]] = {}      # by each of their owners
         self.complete = False
 
     def hash(self, starts: Iterable[Place]) -> str:
@@ -71,13 +71,13 @@ class Code:
         return self.hashes[places]
 
     def text(self, place: Place) -> str:
-        """A definition, with marks of those that it uses: two of one name are two."""
+        """Hash of a definition and of those that it uses, as names alone may stand for different ones."""
         reading = self.reading(place)
         used = [self.reading(use).text for use in reading.uses if followed(use.module)]
         return digest(reading.text, *used)
 
     def reached(self, starts: Iterable[Place]) -> set[Place]:
-        """Places whose change makes the result another one."""
+        """All places that a result depends on, found recursively from some places."""
         self.read_all()
         places: set[Place] = set()
         todo = list(starts)
@@ -92,10 +92,10 @@ class Code:
                 todo += (action for owners, action in self.actions.get(mark, ()) if owners <= places)
         return places
 
-    # --- where things are --------------------------------------------------------------------------
+    # --- finding definitions -----------------------------------------------------------------------
 
     def read_all(self) -> None:
-        """Know all that statements anywhere in our packages register."""
+        """Read all modules of our packages, to know every action."""
         if self.complete:
             return
         for package in PACKAGES:
@@ -106,7 +106,7 @@ class Code:
         self.complete = True
 
     def module(self, name: str) -> Module | None:
-        """A module of ours by its name, a script by its path."""
+        """A module of our packages by its name, a script by its path; None for others."""
         if name not in self.modules:
             path = file_of(name, self.root)
             self.modules[name] = module = Module(name, path) if path else None
@@ -115,7 +115,7 @@ class Code:
         return self.modules[name]
 
     def note_actions(self, module: Module) -> None:
-        """Know what the statements of a module do besides defining."""
+        """Record the actions of a module: statements that do more than define names."""
         for number, node in enumerate(module.actions):
             action = Place(module.name, str(number), ACTION)
             for owners in self.owners(module, node):
@@ -123,7 +123,7 @@ class Code:
                     self.actions.setdefault(owner, []).append((owners, action))
 
     def owners(self, module: Module, node: ast.stmt) -> Iterator[Owners]:
-        """All of what must be reached for a statement to count; several where it does several things."""
+        """For each thing that a statement does, the places that must all be reached for it to count."""
         reader = Reader(self, module)
         own = {Place(module.name, name) for name in stores(node)}
         for parts in heads(node):
@@ -132,7 +132,7 @@ class Code:
             yield frozenset(places - own or {Place(module.name, "")})
 
     def locate(self, parts: Dotted) -> tuple[Place | None, Dotted]:
-        """The place that a full name leads to, None if not ours, and what is left of the name."""
+        """Place of a full dotted name, None outside our packages, and the rest of the name after it."""
         for length in range(len(parts), 0, -1):
             module, rest = self.module(".".join(parts[:length])), parts[length:]
             if module and not rest:
@@ -142,16 +142,16 @@ class Code:
         return None, ()
 
     def member(self, module: Module, name: str, *rest: str) -> tuple[Place | None, Dotted]:
-        """The place of a name in a module."""
+        """Place of a name in a module, imports followed, and the rest of the name after it."""
         if name in module.definitions:
             return Place(module.name, name), rest
         origin = module.meanings.get(name)
         return self.locate((*origin, *rest)) if origin else (None, ())
 
-    # --- what they say -----------------------------------------------------------------------------
+    # --- reading definitions -----------------------------------------------------------------------
 
     def reading(self, place: Place) -> Reading:
-        """Syntax of a place, and what it uses."""
+        """Syntax of a place, and the places that it uses."""
         if place not in self.readings:
             self.readings[place] = self.read(place)
         return self.readings[place]
@@ -174,14 +174,14 @@ class Code:
         return reader.read(*nodes)
 
     def entry(self, table: Place, key: object) -> Place:
-        """The entry of a table, or all of the table where it is made in another way than by listing."""
+        """Place of one entry of a table, or of the whole table if its entries are not listed literally."""
         module = self.module(table.module)
         nodes = module.definitions.get(table.name, []) if module else []
         return table._replace(part=repr(key)) if repr(key) in entries(nodes) else table
 
 
 def entries(nodes: list[ast.stmt]) -> dict[str, ast.expr]:
-    """Those of ``{"name": value, ...}`` and of ``{x.name: x for x in (Kind("name", ...), ...)}``."""
+    """Entries of ``{"name": value, ...}`` or ``{x.name: x for x in (Kind("name", ...), ...)}``, else none."""
     value = getattr(nodes[0], "value", None) if len(nodes) == 1 else None
     if isinstance(value, ast.Dict):
         keys, items = value.keys, value.values
@@ -195,7 +195,7 @@ def entries(nodes: list[ast.stmt]) -> dict[str, ast.expr]:
 
 
 def listed(node: ast.DictComp) -> list[ast.expr]:
-    """The values in ``{x.name: x for x in (value, ...)}``; nothing of another comprehension."""
+    """Values listed in ``{x.name: x for x in (value, ...)}``; none for other comprehensions."""
     values = node.generators[0].iter
     x, all_values = ast.unparse(node.value), ast.unparse(values)
     by_name = ast.unparse(node) == f"{{{x}.name: {x} for {x} in {all_values}}}"
@@ -203,7 +203,7 @@ def listed(node: ast.DictComp) -> list[ast.expr]:
 
 
 def bare(node: ast.stmt) -> ast.stmt:
-    """A class of cases without bases, which are classes of the case themselves, fields, cost and label."""
+    """A class of cases without fields, cost, label, and bases, which `starts` of case.py lists themselves."""
     if not isinstance(node, ast.ClassDef):
         return node
     case = copy(node)
@@ -213,7 +213,7 @@ def bare(node: ast.stmt) -> ast.stmt:
 
 
 def is_aside(node: ast.stmt) -> bool:
-    """A field of a dataclass, whose value is a parameter, or what only orders and names runs."""
+    """Whether a statement is a field of a dataclass, whose value is a parameter, or one of ASIDE."""
     if isinstance(node, ast.AnnAssign):
         return "ClassVar" not in ast.unparse(node.annotation)
     return isinstance(node, ast.FunctionDef) and node.name in ASIDE

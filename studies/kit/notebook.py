@@ -1,4 +1,4 @@
-"""What notebooks share: sentences that cells compute, numbers with intervals, tables, small pictures."""
+"""Helpers of notebooks: computed sentences, numbers with intervals, tables, small pictures."""
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
@@ -14,49 +14,49 @@ from studies.kit.csvfile import read
 from studies.kit.figure import compact
 
 rcParams.update({"savefig.dpi": 70, "legend.fontsize": 8})
-# a warning is a sentence: the path of the file that warns says nothing to a reader
+# print only the message of a warning: the path of the file says nothing to a reader
 warnings.formatwarning = lambda message, *_, **__: f"{message}\n"
-ROUND_OFF = 1e-13       # smaller numbers are told as zero
+ROUND_OFF = 1e-13       # smaller numbers are printed as zero
 
 
 def say(sentence: str) -> None:
-    """A finding."""
+    """Display a sentence as a finding."""
     display(Markdown(f"**Finding.** {sentence}"))
 
 
 def note(*words: str) -> None:
-    """What is taken in place of what was asked for; nothing if nothing is."""
+    """Display a note, such as on results used in place of others; nothing if there are no words."""
     if any(words):
         display(Markdown(f"**Note.** {'; '.join(filter(None, words))}."))
 
 
 def show(page: Figure) -> None:
-    """A small picture of a figure."""
+    """Display a small picture of a figure."""
     display(Image(compact(page)))
 
 
 def drawn(pages: Mapping[str, Figure], name: str) -> None:
-    """A small picture of a figure by name, if its tables are there."""
+    """Display a small picture of a figure by name, or a note if the figure is missing."""
     show(pages[name]) if name in pages else note(f"{name}: not run yet")
 
 
 def table(frame: pd.DataFrame) -> None:
-    """A table with whole texts."""
+    """Display a table, with texts in full."""
     with pd.option_context("display.max_colwidth", None):
         display(HTML(frame.to_html(index=False, na_rep="")))
 
 
 def listed(words: Iterable[Any]) -> str:
-    """a, b and c"""
+    """Words joined to "a, b and c"; "none" if there are none."""
     *first, last = [str(word) for word in words] or ["none"]
     return f"{', '.join(first)} and {last}" if first else last
 
 
 def pm(value: float, err: float = 0.0) -> str:
-    """0.00312(2): a value with its interval in units of the last digit."""
+    """A value with its interval in units of the last digit, such as 0.00312(2)."""
     if not np.isfinite(value):
         return ""
-    if not err > 1e-9*abs(value):       # none, or round-off
+    if not err > 1e-9*abs(value):       # no error, or round-off
         return f"{value:.4g}"
     digits = int(-np.floor(np.log10(err/2)))
     if digits <= 0:
@@ -65,14 +65,14 @@ def pm(value: float, err: float = 0.0) -> str:
 
 
 def percent(value: float, err: float = 0.0) -> str:
-    """-1.34(4) %"""
+    """A fraction in per cent with its interval, such as -1.34(4) %."""
     if not np.isfinite(value):
         return "none"
     return f"{pm(100*value, 100*err)} %" if abs(value) > ROUND_OFF else "0 %"
 
 
 def verdicts(results: Path, study: str, *, source: str = "") -> None:
-    """Of the claims of a study, or those whose source begins so, counts by verdict and what does not hold."""
+    """Display counts of a study's claims by verdict, and those that do not hold. source : its beginning."""
     claims = claims_of(results, study)
     chosen = claims[claims["source"].str.startswith(source)]
     verdict = chosen["verdict"]
@@ -83,22 +83,22 @@ def verdicts(results: Path, study: str, *, source: str = "") -> None:
 
 
 def claims_of(results: Path, study: str) -> pd.DataFrame:
-    """The claims of a study by name."""
+    """Claims of a study, by id."""
     claims = read(results/"claims.csv", ["study", "id", "measured", "err", "verdict"])
     return claims[claims["study"] == study].set_index("id")
 
 
 def measured(claims: pd.DataFrame, name: str) -> str:
-    """What was measured for a claim, with its interval."""
+    """Measured value of a claim with its interval, as text."""
     return pm(claims["measured"][name], claims["err"][name])
 
 
 def stated(claims: pd.DataFrame) -> pd.DataFrame:
-    """Claims as people read them."""
+    """Claims as a table for readers: source, statement, numbers with intervals, verdict."""
     told = claims.assign(measured=list(map(pm, claims["measured"], claims["err"])))
     return columns(told, ["source", "statement", "printed", "measured", "verdict"])
 
 
 def columns(frame: pd.DataFrame, names: Sequence[str]) -> pd.DataFrame:
-    """Some columns, in this order."""
+    """These columns of a table, in this order."""
     return frame[list(names)]

@@ -1,4 +1,4 @@
-"""A definition as it reads without layout, names in place of what leads to them, and the places it uses."""
+"""Reader of definitions: their syntax, independent of layout and imports, and the places that they use."""
 import ast
 from collections import ChainMap
 from collections.abc import Iterator
@@ -10,16 +10,16 @@ from studies.kit.syntax import UNNAMED, Dotted, Module, Place, Reading, chain, i
 
 
 class Reader(ast.NodeTransformer):
-    """Rewrites statements so that a name reads the same wherever it is defined; notes the places they use."""
+    """Rewrites statements so that a name reads the same wherever it is defined; notes the places used."""
 
     def __init__(self, code: Any, module: Module):
         self.code, self.module = code, module
         self.uses: dict[Place, None] = {}
-        self.meanings: ChainMap[str, Dotted] = ChainMap(module.meanings)    # nothing of variables
-        self.fields = False     # is it the body of a class, whose annotations make fields?
+        self.meanings: ChainMap[str, Dotted] = ChainMap(module.meanings)    # () for variables
+        self.fields = False     # True in the body of a class, where annotations make fields
 
     def read(self, *nodes: ast.AST) -> Reading:
-        """Syntax and uses of statements, in an order of their own."""
+        """Syntax of statements, independent of their order, and the places that they use."""
         texts = sorted(ast.dump(self.visit(deepcopy(node))) for node in nodes)
         return Reading("\n".join(texts), tuple(self.uses))
 
@@ -30,7 +30,7 @@ class Reader(ast.NodeTransformer):
     visit_Attribute = visit_Name
 
     def renamed(self, node: ast.expr) -> ast.expr:
-        """A chain of names with the definition's own name in place of what leads to it."""
+        """A dotted name in which the definition's own name replaces the part that leads to it."""
         dotted = self.meaning(chain(node))
         if not dotted:
             return node
@@ -44,7 +44,7 @@ class Reader(ast.NodeTransformer):
         return result
 
     def meaning(self, parts: Dotted) -> Dotted:
-        """Full dotted name, nothing for variables and for names that Python itself knows."""
+        """Full dotted name, () for variables and for names of Python itself."""
         if not parts:
             return ()
         first, *rest = parts
@@ -52,7 +52,7 @@ class Reader(ast.NodeTransformer):
         return (*origin, *rest) if origin else ()
 
     def visit_Subscript(self, node: ast.Subscript) -> ast.AST:
-        """``TABLE["name"]`` uses one entry."""
+        """Note that ``TABLE["name"]`` uses only this entry of the table."""
         table, rest = self.code.locate(self.meaning(chain(node.value)))
         key, is_read = node.slice, isinstance(node.ctx, ast.Load)
         if not table or rest or not is_read or not isinstance(key, ast.Constant):
@@ -64,7 +64,7 @@ class Reader(ast.NodeTransformer):
 
     @contextmanager
     def inside(self, meanings: dict[str, Dotted], fields: bool = False) -> Iterator[None]:
-        """Read with names of a scope."""
+        """Read with the names of an inner scope."""
         before = self.meanings, self.fields
         self.meanings, self.fields = self.meanings.new_child(meanings), fields
         yield
@@ -88,14 +88,14 @@ class Reader(ast.NodeTransformer):
         return node
 
     def visit_signature(self, arguments: ast.arguments, types: bool = False) -> None:
-        """Defaults belong to the scope around; ``types`` choose the formula that a function registers."""
+        """Read defaults in the outer scope; drop annotations, unless as ``types`` they pick a formula."""
         arguments.defaults = list(map(self.visit, arguments.defaults))
         arguments.kw_defaults = [value and self.visit(value) for value in arguments.kw_defaults]
         for one in parameters_of(arguments):
             one.annotation = self.visit(one.annotation) if types and one.annotation else None
 
     def inner(self, body: list[Any], arguments: ast.arguments) -> list[Any]:
-        """A function's body, read with its variables."""
+        """Body of a function, read with its parameters, variables and imports."""
         parameters = [one.arg for one in parameters_of(arguments)]
         variables = [name for node in body for name in stores(node)]
         imports = [pair for node in body for pair in imported(node, self.module.name)]
@@ -118,15 +118,15 @@ class Reader(ast.NodeTransformer):
 
     visit_ListComp = visit_SetComp = visit_DictComp = visit_GeneratorExp = visit_comprehension_of
 
-    # --- what does not count -----------------------------------------------------------------------
+    # --- syntax that is left out -------------------------------------------------------------------
 
     def visit_Import(self, node: Any) -> None:
-        """What is imported shows where it is used."""
+        """Drop imports: an imported name counts where it is used."""
 
     visit_ImportFrom = visit_Import
 
     def visit_AnnAssign(self, node: ast.AnnAssign) -> ast.AST | None:
-        """A type stays where it makes a field of a class, but what it names is not used."""
+        """Keep an annotation that makes a class field, but not as a use of names in it; drop others."""
         value = node.value and self.visit(node.value)
         if not self.fields:
             return ast.Assign([self.visit(node.target)], value) if value else None
@@ -143,7 +143,7 @@ class Reader(ast.NodeTransformer):
 
 
 def undocumented(body: list[ast.stmt]) -> list[ast.stmt]:
-    """Statements without the docstring."""
+    """Body of a definition without its docstring."""
     first = body[0]
     documents = isinstance(first, ast.Expr) and isinstance(first.value, ast.Constant)
     rest = body[1:] if documents else body

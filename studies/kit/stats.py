@@ -13,13 +13,13 @@ from scipy.special import stdtrit
 
 
 class CannotTell(Exception):
-    """The numbers at hand do not decide what is asked, for the reason given."""
+    """The numbers available do not answer the question, for the reason given."""
 
 
 class Measured(NamedTuple):
     """A value and the half width of its 95 % interval.
 
-    Arithmetic takes errors as independent: they add in squares, to first order. A number has no error.
+    Arithmetic treats errors as independent: they add in squares, to first order. A plain number has no error.
     """
 
     value: float
@@ -50,7 +50,7 @@ class Measured(NamedTuple):
         return self*other
 
     def __truediv__(self, other: "Measured | float") -> "Measured":
-        """Raise CannotTell where the divisor's interval contains zero."""
+        """Raise CannotTell if the divisor's interval contains zero."""
         b = measured(other)
         if abs(b.value) <= b.err:
             raise CannotTell(f"a ratio to {b.value:.3g} +- {b.err:.2g}, which is not told from zero")
@@ -58,7 +58,7 @@ class Measured(NamedTuple):
         return Measured(ratio, hypot(self.err, ratio*b.err)/abs(b.value))
 
     def __str__(self) -> str:
-        """The error in units of the last digit, 0.00499(1); five digits where there is none."""
+        """Value with the error in units of the last digit, 0.00499(1); five digits if it has no error."""
         if not 0 < self.err < inf:
             return f"{self.value:.5g}"
         power = floor(log10(max(abs(self.value), self.err)))
@@ -79,7 +79,7 @@ class Measured(NamedTuple):
 
 
 def measured(number: "Measured | float") -> Measured:
-    """A number as a value without error; what has one stays."""
+    """A plain number as `Measured` without error; a `Measured` as it is."""
     return number if isinstance(number, Measured) else Measured(float(number))
 
 
@@ -94,8 +94,8 @@ def correlation(x: np.ndarray) -> np.ndarray:
 def window_and_tau(x: np.ndarray, c: float = 6.0) -> tuple[int, float]:
     """Sokal's window W, the first with W >= c tau(W), and tau(W) = 1/2 + sum_{1..W} rho, in samples.
 
-    c = 6 leaves exp(-6) of an exponential decay outside the window. The term (2W + 1)/n undoes, to first
-    order, the bias that comes from subtracting the mean of the same series.
+    c = 6 leaves exp(-6) of an exponential decay outside the window. The term (2W + 1)/n corrects, to first
+    order, the bias from subtracting the mean of the same series.
     """
     tau = np.cumsum(correlation(x)) - 0.5
     inside = np.arange(len(x)) >= c*tau
@@ -107,7 +107,7 @@ def mean(x: Sequence[float] | np.ndarray) -> Measured:
     """Mean of a steady, correlated series and its error.
 
     The estimated variance of the mean has itself a relative variance 2 (2W + 1)/n, as a chi^2 with
-    n/(2W + 1) degrees of freedom has: hence the t factor, which keeps short series honest.
+    n/(2W + 1) degrees of freedom has: hence Student's t factor, which widens intervals of short series.
 
     Raises ValueError: the series is too short or not finite.
     """
@@ -123,11 +123,11 @@ def mean(x: Sequence[float] | np.ndarray) -> Measured:
 
 
 def settled(x: Sequence[float] | np.ndarray, most: float = np.inf) -> tuple[Measured, bool]:
-    """Mean of a series and whether its halves agree; if not, half of their difference is in the error.
+    """Mean of a series and whether its halves agree; if not, half of their difference adds to the error.
 
     Two halves of a steady series differ by more than 1.5 times the root of the sum of squares of their 95 %
-    intervals once in 300 times. Where noise is as long as the series these intervals exclude nothing: halves
-    that differ by more than the fraction `most` of the mean do not agree, either.
+    intervals once in 300 times. If noise is correlated over the whole series, these intervals are too wide to
+    tell: halves that differ by more than the fraction `most` of the mean do not agree, either.
     """
     whole = mean(x)
     first, last = map(mean, np.array_split(np.asarray(x, float), 2))
@@ -140,8 +140,8 @@ def settled(x: Sequence[float] | np.ndarray, most: float = np.inf) -> tuple[Meas
 def combine(runs: Sequence[tuple[float, float]]) -> Measured:
     """Mean over seeds from (value, err) of each run; the error is the larger of two.
 
-    One is what the errors within the runs leave after averaging, the other the scatter between runs with its
-    t factor: it knows of runs that settle in different states, but of two or three it is small by chance.
+    One is propagated from the errors within the runs. The other is the scatter between runs times Student's t
+    factor: it covers runs that settle in different states, but may be small by chance for two or three runs.
     """
     values, errs = np.array(runs, dtype=float).reshape(-1, 2).T
     n = len(values)
@@ -155,7 +155,7 @@ def combine(runs: Sequence[tuple[float, float]]) -> Measured:
 def over_seeds(values: Sequence[float] | np.ndarray | pd.Series) -> Measured:
     """Mean over seeds of values that have no error of their own: t(n - 1) times the scatter over sqrt n.
 
-    Raises CannotTell: there is one seed.
+    Raises CannotTell: there is only one seed.
     """
     if len(values) < 2:
         raise CannotTell(f"{len(values)} seed was run: there is no error bar without a second")
@@ -163,10 +163,10 @@ def over_seeds(values: Sequence[float] | np.ndarray | pd.Series) -> Measured:
 
 
 def seed_means(rows: pd.DataFrame, by: Sequence[str], columns: Sequence[str]) -> Iterator[dict[str, Any]]:
-    """One row a group of seeds: what it has in common, how many ``seeds``, each column's mean and ``_err``.
+    """One row per group of seeds: values of ``by``, number of ``seeds``, mean and ``_err`` of each column.
 
-    The ``_err`` of a column, where the table has one, is the error within a run, for `combine`. One seed
-    alone has only this.
+    The ``_err`` of a column, if the table has one, is the error within a run, for `combine`. A single seed
+    has only this error.
     """
     for key, group in rows.groupby(list(by)):
         row: dict[str, Any] = dict(zip(by, key))
@@ -180,7 +180,7 @@ def seed_means(rows: pd.DataFrame, by: Sequence[str], columns: Sequence[str]) ->
 
 
 def with_errors(**numbers: Measured) -> dict[str, float]:
-    """Columns of numbers and of their errors: `K` and `K_err` of K."""
+    """Numbers and their errors as columns: `K` and `K_err` for K."""
     columns = dict[str, float]()
     for name, (value, err) in numbers.items():
         columns |= {name: value, f"{name}_err": err}

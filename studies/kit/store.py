@@ -17,17 +17,17 @@ RESULTS = ROOT / "results"
 
 
 def results(size: str) -> Path:
-    """Where the results of a size go by default; what is tried out, ``quick`` or ``own``, has its folder."""
+    """Default folder for the results of a size; ``quick`` and ``own`` have folders of their own."""
     return RESULTS / size if size in ("quick", "own") else RESULTS
 
 
 class CannotRun(Exception):
-    """The cases cannot run as they were asked to; what is finished is kept."""
+    """Cases cannot run as requested; finished cases are kept."""
 
 
 @dataclass(frozen=True)
 class Failure:
-    """A case that did not finish: what it was, why, the traceback and the file that has it."""
+    """A case that did not finish: its label, the reason, the traceback and the file of the traceback."""
 
     label: str
     message: str
@@ -40,7 +40,7 @@ class Failure:
 
 
 def attempt(case: Case, scratch: Path, report: Report) -> str | Failure:
-    """Run one case, wherever it is: its outcome as text, or a failure. Its checkpoints lie in ``scratch``."""
+    """Run one case: its outcome as text, or a failure. Its checkpoints are in the folder ``scratch``."""
     try:
         scratch.mkdir(parents=True, exist_ok=True)
         report(0.0)
@@ -53,12 +53,12 @@ def attempt(case: Case, scratch: Path, report: Report) -> str | Failure:
 
 
 def same_code(case: Case) -> bool:
-    """Whether this process has the code that the case was made with in another one."""
+    """Whether a case has the same key here as in the process that made it, that is, the same code."""
     return replace(case).key == case.key
 
 
 def keep(case: Case, result: str | Failure, folder: Path) -> Failure | None:
-    """Write the outcome of a case and clear its scratch folder; of a failure write the traceback."""
+    """Write the outcome of a case and delete its scratch folder, or write the traceback of a failure."""
     story = folder / f"{case.key}.error.txt"
     if isinstance(result, Failure):
         if not result.story:
@@ -69,24 +69,24 @@ def keep(case: Case, result: str | Failure, folder: Path) -> Failure | None:
     sealed = {**content, "seal": seal(case, content)}
     write_atomic(folder / f"{case.key}.json", json.dumps(sealed, indent=1))
     story.unlink(missing_ok=True)
-    shutil.rmtree(folder / case.key, ignore_errors=True)    # a case of a cluster has none here
+    shutil.rmtree(folder / case.key, ignore_errors=True)    # on a cluster it is elsewhere
     return None
 
 
 def as_text(case: Case, outcome: Outcome, cpu_s: float) -> str:
-    """An outcome with its commit, versions, machine, date and CPU seconds, compiling among them."""
+    """An outcome as JSON with commit, versions, machine, date and CPU seconds, compile time included."""
     content = {"case": parameters(case), "commit": commit(), "versions": versions(),
                "cpu": cpu(), "date": now(), "cpu_s": cpu_s, "rows": outcome.rows}
-    return json.dumps(content, default=lambda value: value.tolist(), indent=1)      # numpy's as Python's
+    return json.dumps(content, default=lambda value: value.tolist(), indent=1)      # for numpy's numbers
 
 
 def seal(case: Case, content: dict[str, Any]) -> str:
-    """A hash of all that is kept, and of the case's key."""
+    """Hash of all stored content and of the case's key, which reveals a changed file."""
     return digest(case.key, json.dumps(content, sort_keys=True))
 
 
 def content_of(case: Case, folder: Path) -> dict[str, Any]:
-    """What is kept of a finished case. Raises FileNotFoundError; ValueError: it is not as it was written."""
+    """Stored content of a finished case. Raises FileNotFoundError; ValueError: it is not as written."""
     content = json.loads((folder/f"{case.key}.json").read_text())
     if not isinstance(content, dict) or content.pop("seal", "") != seal(case, content):
         raise ValueError("it is not as it was written")
@@ -97,7 +97,7 @@ def content_of(case: Case, folder: Path) -> dict[str, Any]:
 
 
 def kept(case: Case, folder: Path) -> Rows | None:
-    """Rows of a finished case by table, each with the commit that computed it; None when it must be run."""
+    """Rows of a finished case by table, each with the commit that computed it; None if it must be run."""
     try:
         content = content_of(case, folder)
     except FileNotFoundError:

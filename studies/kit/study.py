@@ -23,17 +23,17 @@ from studies.kit.sweep import GO_ON, CasesFailed, NoSuchCase, Sweep, labelled, l
 from studies.kit.table import SIZES, Row, Rows, Table, Tables, check_once
 
 NO_FIGURES = Drawings()
-LEAST = 8       # rows of what is tried out
+LEAST = 8       # rows of a trial run
 COMMANDS = "run", "figures", "claims"
-#: what ends a study with one line; of the system's errors a full disk, a folder that may not be written
+#: errors that end a study with one line; OSError: a full disk, a folder without write permission
 EXPECTED = (CasesFailed, CannotRun, OtherTable, OSError)
 
 
 class Own(NamedTuple):
-    """Methods of one's own, tried out with few rows and seeds.
+    """Trial runs of methods with few rows and seeds.
 
     cases : (text, rows, seeds) -> cases of the methods that the text names; raises NoSuchCase
-    beside : (cases, tables with them, tables of the study) -> lines that compare
+    beside : (cases, their tables, tables of the study) -> lines that compare both
     """
     cases: Callable[[str, int, int], Sequence[Case]]
     beside: Callable[[Sequence[Case], Tables, Tables], Iterable[str]]
@@ -41,9 +41,9 @@ class Own(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class Study:
-    """One question: a name, a sentence that asks it; cases by size, their tables, and what reads these.
+    """One question: its name and sentence, cases by size, their tables, and figures and claims from these.
 
-    Raises ValueError: Two tables, figures or claims have one name.
+    Raises ValueError: two tables or two claims have one name.
     """
 
     name: str
@@ -61,12 +61,12 @@ class Study:
         check_once("claims", (claim.id for claim in self.claims))
 
     def run(self, size: str, *, out: Path | None = None, cases: Sequence[Case] = (), **more: Any) -> Tables:
-        """Cases to tables, derived rows among them; more, such as ``workers``, are fields of `Sweep`.
+        """Run the cases; return the tables with derived rows. more : fields of `Sweep`, such as workers.
 
-        cases : those of one's own that run in place of the study's.
+        cases : trial cases, which run instead of those of the study.
 
-        Raises NoSuchCase: No label contains ``only``. CasesFailed: Some did; what follows from the
-        others has been derived and written. CannotRun: The tables are as they were. BlockingIOError: The
+        Raises NoSuchCase: no label contains ``only``. CasesFailed: some cases failed; rows of the others,
+        and rows derived from them, are written. CannotRun: the tables are unchanged. BlockingIOError: the
         study runs in this folder already.
         """
         sweep = Sweep(study=self.name, tables=self.tables, size=size, out=out or results(size), **more)
@@ -81,7 +81,7 @@ class Study:
         return tables
 
     def draw(self, out: Path = RESULTS) -> list[Path]:
-        """Figures from the tables on disk."""
+        """Draw and save the figures from the tables on disk; return their files."""
         pages = self.figures(load(self.tables, self.name, out))
         paths = {name: out/self.name/f"{name}.png" for name in pages}
         for name, page in pages.items():
@@ -89,20 +89,20 @@ class Study:
         return list(paths.values())
 
     def judge(self, out: Path = RESULTS) -> list[Row]:
-        """Verdicts from the tables on disk, put into claims.csv."""
+        """Verdicts from the tables on disk, also written to claims.csv."""
         rows = judge(self.claims, load(self.tables, self.name, out), self.name)
         if rows:
             put_claims(out/"claims.csv", rows)
         return rows
 
     def written(self, out: Path) -> list[Path]:
-        """The tables that exist."""
+        """Files of the tables that exist."""
         paths = [out/self.name/table.file for table in self.tables]
         return [path for path in paths if path.exists()]
 
 
 def names() -> list[str]:
-    """Of all studies: folders whose `__init__.py` makes a STUDY."""
+    """Names of all studies: folders whose `__init__.py` defines STUDY."""
     files = sorted((ROOT/"studies").glob("*/__init__.py"))
     return [path.parent.name for path in files if "\nSTUDY = " in path.read_text()]
 
@@ -114,7 +114,7 @@ def study_of(name: str) -> Study:
 
 
 def main(study: Study, arguments: Sequence[str] | None = None) -> None:
-    """The command line of a study; ends with 0, or 1 (failed), 2 (not understood), 130 (interrupted)."""
+    """Command line of a study; exits with 0, 1 (failed), 2 (wrong arguments) or 130 (interrupted)."""
     words = parse(study, arguments)
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
@@ -129,7 +129,7 @@ def main(study: Study, arguments: Sequence[str] | None = None) -> None:
 
 
 def parse(study: Study, arguments: Sequence[str] | None) -> argparse.Namespace:
-    """Command, size (default: SIZE of the environment, else paper), where it runs, folder, which cases."""
+    """Checked arguments: command, size (default: SIZE of the environment, else paper), folder, cases."""
     parser = argparse.ArgumentParser(prog=f"python -m studies {study.name}", description=study.question)
     add = parser.add_argument
     size = os.environ.get("SIZE") or "paper"
@@ -157,7 +157,7 @@ def parse(study: Study, arguments: Sequence[str] | None) -> argparse.Namespace:
 
 
 def parsed(parser: argparse.ArgumentParser, arguments: Sequence[str] | None) -> argparse.Namespace:
-    """What was typed; ends with 2 where an option is unknown, before its value is taken for another word."""
+    """Parsed arguments; exits with 2 at an unknown option, before its value is taken for an argument."""
     words, rest = parser.parse_known_args(arguments)
     if rest:
         known = re.findall("--[a-z]+", parser.format_usage())
@@ -167,7 +167,7 @@ def parsed(parser: argparse.ArgumentParser, arguments: Sequence[str] | None) -> 
 
 
 def check(study: Study, words: argparse.Namespace) -> None:
-    """Refuse what cannot be done, before anything is; make the folder that is written to."""
+    """Check the arguments before anything runs, and make the output folder. Raises ValueError, OSError."""
     if words.command not in COMMANDS:
         raise ValueError(f"no command is called {words.command!r}: there are {', '.join(COMMANDS)}")
     Sweep(study=study.name, tables=study.tables, size=words.size, **words.cases)
@@ -186,7 +186,7 @@ def check(study: Study, words: argparse.Namespace) -> None:
 
 
 def perform(study: Study, words: argparse.Namespace) -> None:
-    """Run what was asked for and say where it is. Raises CasesFailed: some did, the others are shown."""
+    """Carry out the command and print where results are. Raises CasesFailed: some did, others are shown."""
     out, failed, run = words.out, None, words.command == "run"
     own = study.own.cases(words.only, words.rows, words.seeds) if study.own and words.tried else ()
     if run:
@@ -225,11 +225,11 @@ def verdict_line(row: Row) -> str:
 
 
 def shown(path: Path) -> Path:
-    """A path as short as it gets."""
+    """A path, relative to the current folder if it is in there."""
     return path.relative_to(Path.cwd()) if path.is_relative_to(Path.cwd()) else path
 
 
 def say(text: str, code: int = 0) -> int:
-    """A message for the user."""
+    """Print a message for the user to stderr; return the exit status ``code``."""
     print(text, file=sys.stderr, flush=True)
     return code

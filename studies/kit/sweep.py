@@ -1,4 +1,4 @@
-"""All cases of a study: those already finished are read, the others run, and tables get their rows."""
+"""Sweep over the cases of a study: finished ones are read, others run, and rows are merged into tables."""
 import shlex
 import sys
 from collections.abc import Iterable, Sequence
@@ -12,24 +12,24 @@ from studies.kit.dispatch import Bar, Here, Processes, Transport, dispatch
 from studies.kit.store import RESULTS, CannotRun, Failure, kept
 from studies.kit.table import Row, Rows, Table, Tables, changed, check_size, merge, read
 
-LABELS = 3      # of those that exist, told to who asked for one that does not
+LABELS = 3      # number of labels in the message on a label that does not exist
 GO_ON = "the same command goes on from there"
 
 
 class CasesFailed(Exception):
-    """Some cases raised; the tables hold the rows of the others."""
+    """Some cases failed; the tables hold the rows of the others."""
 
 
 class NoSuchCase(Exception):
-    """No case of the study has the text that was asked for in its label."""
+    """No case of the study has the requested text in its label."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Sweep:
     """Where the cases of a study run, which of them, and where their rows go.
 
-    workers : processes; 1 is this one. scheduler : address of a Dask cluster, which takes their place.
-    only : some of the cases run: those with this text in their label, or of the methods that it names.
+    workers : number of processes; 1 is this one. scheduler : address of a Dask cluster to use instead.
+    only : run only the cases with this text in their label, or those of the methods that it names.
     """
 
     study: str
@@ -48,13 +48,13 @@ class Sweep:
 
     @property
     def folder(self) -> Path:
-        """Of finished cases."""
+        """Folder of finished cases."""
         return self.out/"raw"/self.study
 
     def run(self, cases: Iterable[Case]) -> tuple[Tables, CasesFailed | None]:
-        """Run the cases that are not finished yet, the longest first; merge all rows into the tables.
+        """Run the unfinished cases, longest first; return tables with all rows, and CasesFailed or None.
 
-        Raises KeyboardInterrupt, CannotRun: What is finished is kept, the tables are as they were.
+        Raises KeyboardInterrupt, CannotRun: finished cases are kept, the tables are unchanged.
         """
         wanted = list({case.key: case for case in cases}.values())
         failures = self.run_missing(wanted)
@@ -65,7 +65,7 @@ class Sweep:
         return tables, None
 
     def run_missing(self, wanted: Sequence[Case]) -> list[Failure]:
-        """Run the cases that are not kept."""
+        """Run the cases that are not stored; return the failures."""
         missing = [case for case in wanted if kept(case, self.folder) is None]
         missing.sort(key=lambda case: -case.cost)
         try:
@@ -76,7 +76,7 @@ class Sweep:
             raise CannotRun(f"{error}; {self.count(wanted)}") from error
 
     def transport(self, bar: Bar) -> Transport:
-        """To where the cases run."""
+        """Transport of the cases: to a cluster, to this process, or to workers."""
         if self.scheduler:
             return Cluster(self.scheduler, bar)
         if self.workers == 1:
@@ -84,12 +84,12 @@ class Sweep:
         return Processes(self.workers, self.folder, bar)
 
     def count(self, cases: Sequence[Case]) -> str:
-        """What is kept, and how to go on."""
+        """Message on how many cases are stored, and how to go on."""
         done = sum(kept(case, self.folder) is not None for case in cases)
         return f"{done} of {len(cases)} cases are finished and kept, {GO_ON}"
 
     def rows(self, cases: Sequence[Case]) -> Rows:
-        """Those of the finished ones among some cases, by table."""
+        """Rows of those cases that are finished, by table."""
         rows: dict[str, list[Row]] = {}
         for case in cases:
             for name, new in (kept(case, self.folder) or {}).items():
@@ -97,10 +97,10 @@ class Sweep:
         return rows
 
     def put(self, rows: Rows, derived: bool = False) -> Tables:
-        """Merge rows into the tables and read all of these that exist.
+        """Merge rows into the tables; return all tables that exist.
 
-        When ``only`` some cases ran, derived rows that came out as they were keep size and commit: what they
-        follow from has not run.
+        When ``only`` some cases ran, derived rows that did not change keep their size and commit, as the
+        cases that they derive from have not run.
         """
         tables = {table.name: table for table in self.tables}
         if unknown := sorted(rows.keys() - tables):
@@ -118,7 +118,7 @@ class Sweep:
 
     @property
     def command(self) -> str:
-        """What makes the tables; a cluster has CPUs that the head of a table does not name."""
+        """Command that makes the tables; names a cluster, as the head of a table does not have its CPUs."""
         there = " SCHEDULER=tcp://..."*bool(self.scheduler)
         if self.only:
             return f"python -m studies {self.study} --size {self.size} --only {shlex.quote(self.only)}{there}"
@@ -126,7 +126,7 @@ class Sweep:
 
 
 def labelled(cases: Sequence[Case], only: str, size: str) -> Sequence[Case]:
-    """The cases whose label contains a text, in capitals or not."""
+    """Cases whose label contains a text, in any case. Raises NoSuchCase: there is none."""
     chosen = [case for case in cases if only.casefold() in case.label.casefold()]
     if only and not chosen:
         labels = "; ".join(case.label for case in cases[:LABELS])
@@ -139,7 +139,7 @@ def labelled(cases: Sequence[Case], only: str, size: str) -> Sequence[Case]:
 
 
 def load(tables: Sequence[Table], study: str, out: Path = RESULTS) -> Tables:
-    """The tables of a study that have been written, from CSV."""
+    """Tables of a study that exist, read from CSV."""
     frames = Tables()
     for table in tables:
         path = out/study/table.file

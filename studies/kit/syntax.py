@@ -1,4 +1,4 @@
-"""Our own modules as syntax: what defines a name, what it means, how a statement reads without layout.
+"""Syntax of our modules: statements that define names, meanings of names, and what statements register.
 
 Docstrings, comments, annotations of functions and names of modules are left out: none changes a result.
 """
@@ -12,13 +12,13 @@ FUNCTION = ast.FunctionDef
 COMPREHENSION = ast.ListComp | ast.SetComp | ast.DictComp | ast.GeneratorExp
 COMPOUND = ast.If | ast.For | ast.While | ast.Try | ast.With
 WHOLE, EVERYTHING, CASE, ACTION = "", "everything", "case", "action"
-UNNAMED = "_"       # what functions are called that are only registered
-#: a name, from the package or variable that it begins with
+UNNAMED = "_"       # name of functions that are only registered
+#: parts of a dotted name, the package or variable first
 Dotted = tuple[str, ...]
 
 
 class Place(NamedTuple):
-    """A definition of a module: all of it, one entry of a table, a class as a case has it, or an action."""
+    """Part of a module: a definition, an entry of a table, a class of cases, an action, or everything."""
 
     module: str
     name: str
@@ -26,14 +26,14 @@ class Place(NamedTuple):
 
 
 class Reading(NamedTuple):
-    """What a definition says: its syntax, and the places that it uses."""
+    """A definition as it is read: its syntax, and the places that it uses."""
 
     text: str
     uses: tuple[Place, ...] = ()
 
 
 class Module:
-    """A file: what its top-level statements define, what names mean there, and what they do besides."""
+    """A file: names that its top-level statements define, meanings of names, and actions besides."""
 
     def __init__(self, name: str, path: Path):
         self.name = name
@@ -58,15 +58,15 @@ def parse(path: Path) -> ast.Module:
 
 
 def counts(node: ast.stmt) -> bool:
-    """Does a top-level statement run when its module is imported, and change anything?"""
+    """Whether a top-level statement has an effect when its module is imported."""
     main = isinstance(node, ast.If) and "__name__" in ast.unparse(node.test)
     return not main and not isinstance(node, ast.Assert | ast.Pass)
 
 
 def imported(tree: ast.AST, module: str) -> Iterator[tuple[str, Dotted]]:
-    """(name, what it stands for) of all import statements in a tree.
+    """(name, full dotted name) for all import statements in a tree.
 
-    Raises ValueError: ``from x import *`` or ``from . import x``, which does not say where a name is from.
+    Raises ValueError: ``from x import *`` or ``from . import x``, which hide where a name is from.
     """
     for node in ast.walk(tree):
         if isinstance(node, ast.Import):
@@ -95,13 +95,13 @@ def stores(node: ast.AST) -> Iterator[str]:
 
 
 def registers(node: ast.expr) -> bool:
-    """Is it ``f.of(K)``, ``f.register`` or ``f.register(K)``?"""
+    """Whether a node is ``f.of(K)``, ``f.register`` or ``f.register(K)``."""
     names = chain(node.func if isinstance(node, ast.Call) else node)
     return len(names) == 2 and names[1] in ("of", "register")
 
 
 def chain(node: ast.AST) -> Dotted:
-    """(a, b, c) of ``a.b.c``, nothing of all else."""
+    """(a, b, c) for ``a.b.c``, () for anything else."""
     if isinstance(node, ast.Name):
         return (node.id,)
     above = chain(node.value) if isinstance(node, ast.Attribute) else ()
@@ -114,13 +114,13 @@ def parameters_of(arguments: ast.arguments) -> list[ast.arg]:
     return [*arguments.posonlyargs, *arguments.args, *arguments.kwonlyargs, *filter(None, some)]
 
 
-# --- what they register ----------------------------------------------------------------------------
+# --- what statements register ----------------------------------------------------------------------
 
 
 def heads(node: ast.AST) -> Iterator[Sequence[ast.AST]]:
-    """Of each thing that a statement does besides defining: what it does it to, and for which kinds.
+    """For each action of a statement besides definitions: the object that it acts on, and the types given.
 
-    It registers a formula, fills a table, or sets something.
+    An action registers a formula for types, fills a table, or sets an entry or attribute.
     """
     if isinstance(node, FUNCTION | ast.ClassDef):
         for decorator in node.decorator_list:
@@ -140,7 +140,7 @@ def heads(node: ast.AST) -> Iterator[Sequence[ast.AST]]:
 
 
 def kinds(node: ast.AST, decorator: ast.expr) -> list[ast.expr]:
-    """Types of the first parameter of a function below ``f.register``."""
+    """Type of the first parameter of a function decorated by ``f.register`` without arguments."""
     if isinstance(decorator, ast.Call) or not isinstance(node, FUNCTION):
         return []
     return [one.annotation for one in parameters_of(node.args)[:1] if one.annotation]

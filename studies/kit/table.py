@@ -1,4 +1,4 @@
-"""Tables: columns fixed, rows from cases merged into what is there.
+"""Tables with fixed columns; rows of cases are merged into existing rows.
 
 A row of a better size (quick < paper < fine) is never replaced by one of a lesser size.
 """
@@ -14,7 +14,7 @@ import pandas as pd
 from studies.kit.csvfile import DIGITS, EMPTY, MISSING, commit, cpu, is_number, now, read, versions, write
 
 SIZES = ("quick", "paper", "fine")
-#: columns that a row may have besides those of its table
+#: further columns that a row may have
 SPENT = ("seed", "threads", "cpu_s", "compile_s")
 #: columns that every row gets
 STAMP = ("size", "commit")
@@ -26,10 +26,10 @@ Rows = Mapping[str, list[Row]]
 
 @dataclass(frozen=True)
 class Table:
-    """A table by name: its columns, those (``key``) in which no two rows agree, what a row is (``about``).
+    """A table: name, columns, those columns that identify a row (``key``), and what a row is (``about``).
 
-    ``means``: column -> (meaning, unit) where these are not those of `report/columns.csv`. Of large tables,
-    above 400 kB: the file is packed (``large``), ``digits`` says which suffice (column -> such as ".4f").
+    ``means``: column -> (meaning, unit) where they differ from `report/columns.csv`. For tables above 400 kB:
+    ``large`` gzips the file, ``digits`` has the format of columns that need fewer digits (such as ".4f").
     """
 
     name: str
@@ -43,12 +43,12 @@ class Table:
 
     @property
     def file(self) -> str:
-        """Its name in the folder of the study."""
+        """Name of its file in the folder of the study."""
         return f"{self.name}.csv.gz" if self.large else f"{self.name}.csv"
 
     @classmethod
     def of(cls, name: str, key: str, values: str, **more: Any) -> "Table":
-        """A table from names of columns with spaces between them: those of the key, and the others."""
+        """A table from names of columns, separated by spaces: those of the key, and the others."""
         return cls(name, key=key.split(), columns=[*key.split(), *values.split()], **more)
 
 
@@ -60,19 +60,19 @@ class Tables(dict[str, pd.DataFrame]):
 
 
 def check_once(what: str, names: Iterable[str]) -> None:
-    """Refuse a name that comes twice."""
+    """Raise ValueError if a name occurs twice."""
     for name, number in Counter(names).items():
         if number > 1:
             raise ValueError(f"two {what} of one study are called {name!r}: give one of them another name")
 
 
 def groups(frame: pd.DataFrame, by: str | list[str]) -> list[tuple[Any, pd.DataFrame]]:
-    """(value, its rows), values ascending."""
+    """Pairs (value, rows with this value), values ascending."""
     return list(frame.groupby(by))
 
 
 def check_size(size: str) -> str:
-    """``size`` itself. Raises ValueError: it is none of the three."""
+    """Return ``size``. Raises ValueError: it is none of SIZES."""
     if size not in SIZES:
         raise ValueError(f"unknown size {size!r}: choose one of {', '.join(SIZES)}, as in SIZE=quick")
     return size
@@ -80,9 +80,9 @@ def check_size(size: str) -> str:
 
 def merge(path: Path, table: Table, rows: Sequence[Row], *, size: str,
           command: str = "") -> tuple[pd.DataFrame, int]:
-    """Put ``rows`` into the CSV at ``path``; the table as it then is, and how many better rows stayed.
+    """Merge ``rows`` into the CSV at ``path``; return the table and the number of better rows kept.
 
-    No rows leave the table as it is; where there is none yet they make an empty one.
+    Without rows an existing table stays as it is, and a missing one is written empty.
     Raises ValueError: rows lack key columns, have unknown columns, or two of them have the same key.
     """
     columns = [*table.columns, *STAMP]
@@ -104,7 +104,7 @@ def merge(path: Path, table: Table, rows: Sequence[Row], *, size: str,
 
 
 def changed(path: Path, table: Table, rows: Sequence[Row]) -> list[Row]:
-    """Those of ``rows`` that do not stand in the CSV at ``path`` as they are."""
+    """Those of ``rows`` that are not in the CSV at ``path`` with the same values."""
     if not path.exists():
         return list(rows)
     old = lines(table, read(path, table.columns))
@@ -113,14 +113,14 @@ def changed(path: Path, table: Table, rows: Sequence[Row]) -> list[Row]:
 
 
 def lines(table: Table, frame: pd.DataFrame) -> list[str]:
-    """Rows as they are written, without what was spent on them."""
+    """Rows as lines of CSV, with the columns of the table alone."""
     columns = frame.reindex(columns=list(table.columns))
     text = columns.to_csv(index=False, header=False, float_format=DIGITS)
     return text.splitlines()
 
 
 def rounded(table: Table, frame: pd.DataFrame) -> pd.DataFrame:
-    """Rows with as many digits as the table keeps: before they are compared with what stands there."""
+    """Rows rounded to the digits of the table, so that they can be compared with rows on disk."""
     columns = {}
     for name, digits in table.digits.items():
         if name in frame:
@@ -129,7 +129,7 @@ def rounded(table: Table, frame: pd.DataFrame) -> pd.DataFrame:
 
 
 def best(frame: pd.DataFrame, key: Sequence[str]) -> pd.DataFrame:
-    """One row a key: the best size, the last of equals."""
+    """One row per key: that of the best size, the last among equals."""
     rank = frame["size"].map(SIZES.index).sort_values(kind="stable")
     ascending = frame.loc[rank.index]
     repeated = identity(ascending, key).duplicated(keep="last")
@@ -137,7 +137,7 @@ def best(frame: pd.DataFrame, key: Sequence[str]) -> pd.DataFrame:
 
 
 def check_rows(table: Table, new: pd.DataFrame) -> None:
-    """Refuse rows that would make the table ambiguous."""
+    """Raise ValueError for unknown columns, keys that are incomplete or occur twice, and ambiguous texts."""
     unknown = new.columns.difference([*table.columns, *SPENT, *STAMP])
     if len(unknown):
         raise ValueError(f"table {table.name} has no column {', '.join(unknown)}: list it there")
@@ -154,7 +154,7 @@ def check_rows(table: Table, new: pd.DataFrame) -> None:
 
 
 def check_texts(table: Table, frame: pd.DataFrame) -> None:
-    """Refuse texts that a plain read_csv takes for something else."""
+    """Raise ValueError for a text that a plain read_csv reads as a number or as missing."""
     for text in {value for value in frame.to_numpy().flat if isinstance(value, str)} - {""}:
         if is_number(text) or text in (*MISSING, EMPTY):
             raise ValueError(f"table {table.name} would hold the text {text!r}, which reads back as a number "
@@ -162,13 +162,13 @@ def check_texts(table: Table, frame: pd.DataFrame) -> None:
 
 
 def identity(frame: pd.DataFrame, key: Sequence[str]) -> pd.Series:
-    """The key of each row as one text, numbers as they are written, so that old and new rows compare."""
+    """Key of each row as one text, with numbers as written to CSV, so that old and new rows compare."""
     texts = frame[list(key)].map(as_text)
     return texts.agg(", ".join, axis=1)
 
 
 def as_text(value: Any) -> str:
-    """A number as it stands in the CSV (9 digits; whole numbers in full), anything else as it is."""
+    """A number as written to CSV (9 digits; whole numbers in full), anything else as it is."""
     if not isinstance(value, Real):
         return str(value)
     whole = float(value).is_integer()
@@ -176,5 +176,5 @@ def as_text(value: Any) -> str:
 
 
 def head(command: str) -> list[str]:
-    """Lines on where a table comes from."""
+    """Lines on the origin of a table: commit, versions, processor, time and command."""
     return [f"commit {commit()}", versions(), cpu(), f"{now()}, {command}"]

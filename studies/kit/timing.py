@@ -1,4 +1,4 @@
-"""How long things take: CPU seconds, compiling apart."""
+"""Measurement of run times: CPU seconds, with compile time apart."""
 import statistics
 import time
 from collections.abc import Callable
@@ -11,20 +11,20 @@ from numba.core import event  # isort: skip
 
 REPEATS = 7
 #: half of the interquartile range of 7 repeats -> half width of the 95 % interval of their median:
-#: t sqrt(pi/(2n)) of a normal scatter, whose quartiles are on average 0.757 and 0.353 sigma off
+#: t sqrt(pi/(2n)) for normal scatter, whose quartiles are midway between 0.757 and 0.353 sigma on average
 SPREAD_TO_ERR = float(stdtrit(REPEATS - 1, 0.975)*np.sqrt(np.pi/(2*REPEATS))/((0.757 + 0.353)/2))
 T = TypeVar("T")
 
 
 class Seconds(NamedTuple):
-    """Median of repeats and the half distance of their quartiles."""
+    """Median of repeats and half of their interquartile range."""
 
     median: float
     spread: float
 
 
 class _Compiling(event.Listener):
-    """CPU seconds that this thread spends in numba's compiler; calls within a call count once."""
+    """CPU seconds that this thread spends in numba's compiler; nested calls count once."""
 
     def __init__(self) -> None:
         self.depth, self.started, self.seconds = 0, 0.0, 0.0
@@ -41,7 +41,7 @@ class _Compiling(event.Listener):
 
 
 def compile_and_run_seconds(f: Callable[[], T]) -> tuple[T, float, float]:
-    """Result of ``f()``, CPU seconds of compiling, CPU seconds of everything else (all threads)."""
+    """Result of ``f()``, CPU seconds of compiling, and CPU seconds of everything else (all threads)."""
     compiling, begin = _Compiling(), time.process_time()
     with event.install_listener("numba:compile", compiling):
         result = f()

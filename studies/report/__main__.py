@@ -1,4 +1,4 @@
-"""python -m studies.report [page|equations|tables|gallery|films]: what is made of results, or films."""
+"""python -m studies.report [page|equations|tables|gallery|films]: write a report on results, or films."""
 import argparse
 import sys
 from collections.abc import Sequence
@@ -13,7 +13,7 @@ from studies.report.text import write_gallery
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """The command line; 0, or 1 where the page cannot be made."""
+    """Command line; returns 0, or 1 if the files cannot be made."""
     parser = argparse.ArgumentParser(prog="python -m studies.report")
     commands = ["page", "equations", "tables", "gallery", "films"]
     parser.add_argument("command", nargs="?", default="page", choices=commands)
@@ -21,7 +21,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     words = parser.parse_args(arguments)
     try:
         if words.command == "films":
-            from studies.report.films import make_all  # they alone need the solvers
+            from studies.report.films import make_all  # only films need the solvers
             paths = make_all(words.out)
         elif words.command == "gallery":
             paths = write_gallery(words.out)

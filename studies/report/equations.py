@@ -1,9 +1,9 @@
-"""results/equations.md: what of each equation, figure and section of both papers holds, and what repairs it.
+"""results/equations.md: which equations, figures and sections of both papers hold, and what repairs them.
 
-What an equation says, why it fails and what repairs it are sentences in sentences/*.toml. Verdicts, numbers
-and evidence come from claims: in a sentence {id} is what a claim measured with its error, {id:%} the same in
-per cent; {id:.2f} and {id:%.0f} have as many digits as they say, and no error. A `condition` says when an
-equation holds of which one statement holds and another fails; one without claims says why in `untested`.
+Sentences in sentences/*.toml say what an equation states, why it fails and what repairs it. Verdicts, numbers
+and evidence come from claims: in a sentence {id} is the measured value of a claim with its error, {id:%} the
+same in per cent; {id:.2f} and {id:%.0f} have the digits of the format, and no error. If one statement of an
+equation holds and another fails, `condition` says when it holds; `untested` says why there is no claim.
 """
 import math
 import re
@@ -27,7 +27,7 @@ NUMBER = re.compile(r"\{([\w.-]+)(?::([^}]*))?\}")
 
 
 class Account(NamedTuple):
-    """What is said of some places of a paper, as in sentences/*.toml."""
+    """An entry of sentences/*.toml: sentences on one or several places of a paper."""
 
     at: str
     says: str
@@ -38,19 +38,19 @@ class Account(NamedTuple):
 
     @property
     def places(self) -> tuple[Cited, ...]:
-        """The equations, figures or sections."""
+        """Equations, figures or sections that the entry is about."""
         return places(self.at)
 
 
 def write_equations(out: Path) -> Path:
-    """Write equations.md from claims.csv, all or nothing; its path. Raises NoReport: as `text`."""
+    """Write equations.md from claims.csv, all or nothing; return its path. Raises NoReport: as `text`."""
     path = out/"equations.md"
     write_atomic(path, text(claims_of(out), lines(), out))
     return path
 
 
 def lines() -> list[Account]:
-    """All lines, by paper, kind and number."""
+    """All entries, sorted by paper, kind and number."""
     tables = [tomllib.loads(path.read_text()) for path in SENTENCES.glob("*.toml")]
     known = [Account(**{name: " ".join(words.split()) for name, words in line.items()})
              for table in tables for line in table["line"]]
@@ -58,9 +58,9 @@ def lines() -> list[Account]:
 
 
 def text(claims: pd.DataFrame, known: Sequence[Account], out: Path) -> str:
-    """The file.
+    """Text of the file.
 
-    Raises NoReport: a line cites a claim or a file that is not there, or its words do not fit its verdicts.
+    Raises NoReport: an entry cites a missing claim or file, or its words do not fit its verdicts.
     """
     parts = [(SENTENCES/"head.md").read_text()]
     for (paper, title), group in groupby(known, key=heading):
@@ -70,12 +70,12 @@ def text(claims: pd.DataFrame, known: Sequence[Account], out: Path) -> str:
 
 
 def heading(line: Account) -> tuple[str, str]:
-    """Paper and kind of a line."""
+    """Paper and title of the section of an entry."""
     return line.places[0].paper, TITLES[line.places[0].kind]
 
 
 def cells(line: Account, claims: pd.DataFrame, out: Path) -> list[str]:
-    """One row of a table."""
+    """Cells of an entry's row in the table."""
     names = ", ".join(" ".join(place[1:]).strip() for place in line.places)
     judging = naming(claims, "headline", line.places)
     sentences = [filled(words, claims) for words in (line.why, line.repair)]
@@ -84,14 +84,14 @@ def cells(line: Account, claims: pd.DataFrame, out: Path) -> list[str]:
 
 
 def naming(claims: pd.DataFrame, column: str, wanted: Sequence[Cited]) -> pd.DataFrame:
-    """The claims that name one of some places in a column."""
+    """Claims that name one or more of the places in a column."""
     names = {str(place) for place in wanted}
     chosen = [not names.isdisjoint(text.split("; ")) for text in claims[column]]
     return claims[chosen]
 
 
 def verdict(line: Account, judging: pd.DataFrame) -> str:
-    """What follows from the verdicts of the claims that decide."""
+    """Verdict of an entry from those of the deciding claims. Raises NoReport: its words do not fit these."""
     verdicts = {*judging["verdict"]}
     mixed = {"holds", "fails"} <= verdicts
     if bool(line.untested) == bool(verdicts):
@@ -108,7 +108,7 @@ def verdict(line: Account, judging: pd.DataFrame) -> str:
 
 
 def filled(sentence: str, claims: pd.DataFrame) -> str:
-    """A sentence with the numbers of its claims."""
+    """A sentence with numbers of claims filled in. Raises NoReport: it cites a claim that is missing."""
     rows = claims.set_index("id")
     for name in re.findall("`((?:rr98|khp95|own)-[^`]*)`", sentence):
         found(name, rows)
@@ -116,7 +116,7 @@ def filled(sentence: str, claims: pd.DataFrame) -> str:
 
 
 def found(name: str, rows: pd.DataFrame) -> Any:
-    """The row of a claim."""
+    """Row of a claim. Raises NoReport: there is none."""
     if name not in rows.index:
         raise NoReport(f"claims.csv has no claim {name}, which a sentence cites: run its study, or correct "
                        f"the sentence in {SENTENCES.name}/")
@@ -124,7 +124,7 @@ def found(name: str, rows: pd.DataFrame) -> Any:
 
 
 def number(claim: Any, form: str) -> str:
-    """What a claim measured, as a sentence asks for it."""
+    """Measured value of a claim in the form that a sentence asks for. Raises NoReport: it has none."""
     if math.isnan(claim.measured):
         raise NoReport(f"claim {claim.name} has no number, for which a sentence asks: correct the sentence "
                        f"in {SENTENCES.name}/")
@@ -136,7 +136,7 @@ def number(claim: Any, form: str) -> str:
 
 
 def evidence(line: Account, claims: pd.DataFrame, judging: pd.DataFrame, out: Path) -> str:
-    """The claims that decide, others with numbers in the line, the count of all, figures and tables."""
+    """Text: claims that decide, others that sentences cite, counts of all by verdict, figures and tables."""
     numbers = dict.fromkeys(name for name, _ in NUMBER.findall(line.condition + line.why + line.repair))
     deciding = [f"`{name}` {said}" for name, said in zip(judging["id"], judging["verdict"])]
     others = [f"`{name}`" for name in numbers if name not in {*judging["id"]}]
@@ -149,20 +149,20 @@ def evidence(line: Account, claims: pd.DataFrame, judging: pd.DataFrame, out: Pa
 
 
 def link(name: str, out: Path) -> str:
-    """A link to a figure or table, packed or not."""
+    """Link to a figure or table, gzipped or not. Raises NoReport: it does not exist."""
     there = sorted(out.glob(f"{name}*"))
     if not there:
         raise NoReport(f"{out/name} is not there, which claims.csv has as evidence: run its study again")
     return f"[{name}]({there[0].relative_to(out)})"
 
 
-# --- numbers as people read them ---------------------------------------------------------------------
+# --- numbers as text ---------------------------------------------------------------------------------
 
 
 def with_error(value: float, err: float) -> str:
-    """17.5(15) for 17.5 +- 1.5: the error in units of the last digit, two of its digits where the first is 1.
+    """17.5(15) for 17.5 +- 1.5: the error is in units of the last digit, with two digits if the first is 1.
 
-    Without an error four digits.
+    Without an error, the value with four digits.
     """
     if not math.isfinite(value):
         return "none"
@@ -178,12 +178,12 @@ def with_error(value: float, err: float) -> str:
 
 
 def signed(text: str) -> str:
-    """With the sign that type has for minus."""
+    """Text with typographic minus signs."""
     return text.replace("-", "−")
 
 
 def short(value: object) -> str:
-    """A cell of a table."""
+    """A value as text of a table cell."""
     if isinstance(value, bool) or not isinstance(value, float | int):
         return str(value)
     if math.isnan(value):

@@ -1,6 +1,6 @@
-"""Films of convection at Ra 10 000: points beside the grid at equal times, from weak rolls on, K(t) below.
+"""Films of convection at Ra 10 000, from weak rolls on: points beside the grid at equal times, K(t) below.
 
-Each takes about 20 s of CPU and some 170 KB; results/films/films.csv says what is seen, with commit and seed.
+A film takes about 20 s of CPU and has 170 KB; results/films/films.csv has its caption, commit and seed.
 """
 import io
 import os
@@ -30,16 +30,16 @@ from studies.kit.figure import COLOURS
 from studies.kit.table import merge
 from studies.report.page import FILMS, ffmpeg
 
-FFMPEG = ffmpeg()   # it is missed before minutes of computing
+FFMPEG = ffmpeg()   # here, so that it fails before minutes of computing
 RA, GRID_ROWS, ROWS, SEED = 1e4, 48, 25, 1
-#: free-fall times: the first rolls shoot over at 10 and settle at 30
+#: times of pictures [free-fall times]: the first rolls overshoot at 10 and settle at 30
 TIMES = np.linspace(0, 32, 41)
-OF_FIRST = 0.6      # of the limit of the step at the start: it falls as the flow grows
-SIZE, DPI = (6.4, 3.2), 100     # inches
-RATE = Fraction(100, 11)    # pictures a second
-HOLD = 13               # times more that the last one is shown
-#: of H.264, at which dots stay round: tuned for photographs it is a fifth larger; one thread and no versions:
-#: the bytes are the same again; colours are named in full: browsers darken what is named by half
+OF_FIRST = 0.6      # time step over its limit at the start, which falls as the flow grows
+SIZE, DPI = (6.4, 3.2), 100     # SIZE in inches
+RATE = Fraction(100, 11)    # pictures per second
+HOLD = 13               # how often the last picture is repeated
+#: H.264 at which dots stay round (tuned for photographs, files are a fifth larger). One thread and no version
+#: strings give the same bytes each time; all colour tags are set, as browsers darken films that lack some
 ENCODING = ("-f", "mp4", "-preset", "placebo", "-tune", "psnr", "-crf", "33", "-threads", "1", "-movflags",
             "+faststart", "-vf",
             "setparams=color_primaries=bt709:color_trc=bt709,scale=out_color_matrix=bt709",
@@ -47,22 +47,22 @@ ENCODING = ("-f", "mp4", "-preset", "placebo", "-tune", "psnr", "-crf", "33", "-
 BOX: dict[str, Any] = {
     "xlim": (-1, 1), "ylim": (-0.5, 0.5), "xticks": [], "yticks": [], "aspect": "equal"}
 HEAT: dict[str, Any] = {"cmap": "inferno", "vmin": 0.4, "vmax": 1.6}
-#: a line that ends in a dot
+#: style of a line that ends in a dot
 TRACE: dict[str, Any] = {"linestyle": "-", "marker": "o", "markersize": 4, "markevery": [-1]}
 NONE = np.empty(0, int)
-BLOB = -0.25, 0.2, 0.15     # place and radius of what is marked at the start, over L
+BLOB = -0.25, 0.2, 0.15     # centre and radius of the disc that is marked at the start, over L
 MARK: dict[str, Any] = {"s": 6, "color": "#40e0ff", "edgecolors": "black", "linewidths": 0.4}
 
 
 class Flow(NamedTuple):
-    """Fields of the grid, their K, marks (m, 2) over L that go along."""
+    """Fields of the grid, their K, and marks (m, 2) over L that move with the flow."""
     fields: NodeFields
     ke: float
     blob: np.ndarray
 
 
 class Dots(NamedTuple):
-    """Points at one time: places over L (n, 2), temperatures (n,), K per mass, numbers (n,) or none."""
+    """Points at one time: positions over L (n, 2), temperatures (n,), K, and ids (n,), which may be empty."""
     x: np.ndarray
     T: np.ndarray
     ke: float
@@ -70,7 +70,7 @@ class Dots(NamedTuple):
 
 
 def points(name: str, scene: RayleighBenard, times: np.ndarray) -> list[Dots]:
-    """A run of a method seen at `times`, in free-fall times, in steps that divide what is between them."""
+    """Points of a run at equidistant `times` [free-fall times], with time steps that divide the intervals."""
     made = ready(scene, name, SEED)
     method, start, _ = made
     between = (times[1] - times[0])*scene.L/scene.free_fall
@@ -89,7 +89,7 @@ def points(name: str, scene: RayleighBenard, times: np.ndarray) -> list[Dots]:
 
 
 def grid(scene: RayleighBenard, rows: int, times: np.ndarray) -> Iterator[Flow]:
-    """The compressible grid at `times`, equally far apart from 0 on, in free-fall times; its K; a blob."""
+    """The compressible grid at equidistant `times` from 0 on [free-fall times]: fields, K, marks."""
     fields, marks = initial(scene, rows, START_ENERGY), lattice((2*ROWS, ROWS)).x/ROWS
     blob = marks[in_disc(marks)]
     between = (times[1] - times[0])*scene.L/scene.free_fall
@@ -102,12 +102,12 @@ def grid(scene: RayleighBenard, rows: int, times: np.ndarray) -> Iterator[Flow]:
 
 
 def in_disc(x: np.ndarray) -> np.ndarray:
-    """Are places over L (n, 2) in the blob at the start?"""
+    """Whether positions over L (n, 2) are in the disc that is marked at the start, (n,)."""
     return np.hypot(x[:, 0] - BLOB[0], x[:, 1] - BLOB[1]) < BLOB[2]
 
 
 def taken_along(blob: np.ndarray, one: NodeFields, other: NodeFields, time: float, parts=16) -> np.ndarray:
-    """Marks after a time, by the midpoint rule, in a flow that changes linearly from one to the other."""
+    """Marks after a time, by the midpoint rule, in a flow that changes linearly between two fields."""
     def velocity(x: np.ndarray, part: float) -> np.ndarray:
         both = [interpolate(at, *(x*at.scene.L).T) for at in (one, other)]
         first, last = (np.stack([at.vx, at.vy], axis=1)/one.scene.L for at in both)
@@ -120,7 +120,7 @@ def taken_along(blob: np.ndarray, one: NodeFields, other: NodeFields, time: floa
 
 def pages(dots: Sequence[Dots], grids: Sequence[Flow], times: np.ndarray,
           titles: tuple[str, str]) -> Iterator[Picture.Image]:
-    """One picture a time: points, the grid, and both K until then."""
+    """One picture per time: points, the grid, and K of both up to then."""
     page = Figure(figsize=SIZE, dpi=DPI)
     left = page.add_axes((0.012, 0.38, 0.482, 0.54))
     right = page.add_axes((0.506, 0.38, 0.482, 0.54))
@@ -147,7 +147,7 @@ def pages(dots: Sequence[Dots], grids: Sequence[Flow], times: np.ndarray,
 
 
 def draw_points(axes: Axes, dots: Dots, title: str) -> None:
-    """A dot for each, nine tenths of the spacing wide, coloured by temperature."""
+    """Draw each point as a dot, nine tenths of the spacing wide, coloured by temperature."""
     spacing = 72*SIZE[0]*0.482/2*np.sqrt(2/len(dots.x))
     area = (0.9*spacing)**2
     axes.scatter(dots.x[:, 0], dots.x[:, 1], s=area, c=dots.T, linewidths=0, marker="o", **HEAT)
@@ -156,7 +156,7 @@ def draw_points(axes: Axes, dots: Dots, title: str) -> None:
 
 
 def draw_triangles(axes: Axes, dots: Dots, title: str) -> None:
-    """Temperature on the triangles, periodic ones cut off."""
+    """Draw temperature on a triangulation of the points, without triangles across periodic sides."""
     triangles = Triangulation(*dots.x.T)
     axes.tripcolor(triangles, dots.T, shading="gouraud", **HEAT)
     axes.triplot(triangles, color="white", linewidth=0.25, alpha=0.5)
@@ -164,7 +164,7 @@ def draw_triangles(axes: Axes, dots: Dots, title: str) -> None:
 
 
 def draw_grid(axes: Axes, fields: NodeFields, title: str) -> None:
-    """Temperature, and arrows along the velocity."""
+    """Draw temperature, and velocity as arrows."""
     at = fields.at
     axes.imshow(at.T, origin="lower", extent=(-1, 1, -0.5, 0.5), interpolation="bilinear", **HEAT)
     every = slice(3, None, 6)
@@ -176,14 +176,14 @@ def draw_grid(axes: Axes, fields: NodeFields, title: str) -> None:
 
 
 def picture(page: Figure) -> Picture.Image:
-    """The page as pixels."""
+    """The figure as an RGB image."""
     full = io.BytesIO()
     page.savefig(full, format="png", dpi=DPI)
     return Picture.open(full).convert("RGB")
 
 
 def write(path: Path, frames: Sequence[Picture.Image]) -> None:
-    """An MP4, all or nothing; the same frames give the same bytes.
+    """Write an MP4, all or nothing; the same frames give the same bytes.
 
     Raises ValueError: the encoder failed; an older film stays as it is.
     """
@@ -201,7 +201,7 @@ def write(path: Path, frames: Sequence[Picture.Image]) -> None:
 
 
 def encode(path: Path, frames: Sequence[Picture.Image]) -> None:
-    """Pictures through ffmpeg, which does not say that it failed at the end: they are counted."""
+    """Encode by ffmpeg, and count the pictures written, as ffmpeg does not report a failure at the end."""
     film = FFMPEG.write_frames(path, frames[0].size, fps=RATE, codec="libx264", quality=None,
                                output_params=list(ENCODING))
     film.send(None)
@@ -213,7 +213,7 @@ def encode(path: Path, frames: Sequence[Picture.Image]) -> None:
         raise RuntimeError(f"it has {written} of {len(frames)} pictures")
 
 
-#: method -> what is seen
+#: method -> caption
 CAPTIONS = {
     "moving-delaunay": "Points that move with their Delaunay triangulation. What was a disc at the start is "
                        "marked: the same points on the left, marks in the flow of the grid on the right.",
@@ -227,7 +227,7 @@ CAPTIONS = {
 
 
 def make(name: str, grids: Sequence[Flow], path: Path) -> dict[str, Any]:
-    """Run, draw and write one film; its row of films.csv."""
+    """Run, draw and write one film; return its row of films.csv."""
     scene = RayleighBenard(ra=RA, L=float(ROWS))
     dots = points(name, scene, TIMES)
     titles = f"{name}, {ROWS} rows", f"grid, {GRID_ROWS} rows"
@@ -237,7 +237,7 @@ def make(name: str, grids: Sequence[Flow], path: Path) -> dict[str, Any]:
 
 
 def make_all(out: Path) -> list[Path]:
-    """All films, each put into films.csv as soon as it is there."""
+    """Make all films, entering each into films.csv as soon as it is written; return their files."""
     folder = out/"films"
     grids = list(grid(RayleighBenard(ra=RA), GRID_ROWS, TIMES))
     paths = {name: folder/f"{name}.mp4" for name in CAPTIONS}

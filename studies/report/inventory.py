@@ -1,4 +1,4 @@
-"""What results/ holds: studies with their tables and figures, found by name, and where each comes from."""
+"""Inventory of results/: studies with their tables and figures, found by name, and the origin of each."""
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -15,15 +15,15 @@ from studies.kit.table import STAMP
 
 #: folders that are not shown
 HIDDEN = ("raw", "quick", "films", "gallery", "own")
-#: what the folder asks that no study fills
+#: question of the folder that no study fills
 OF_BENCH = "Speed beside public codes, in one run"
-#: the order of the page; studies that are not named follow by name
+#: order of studies in the page; others follow by name
 FIRST = ("rb", "cost", "streams", "hardcases", "onset", "cavity", "operators", "ordering", "conservation",
          "noise", "lattices")
 
 
 class NoReport(ValueError):
-    """What the page is made of is missing or is not what it should be; the message says the way out."""
+    """A source of the report is missing or wrong; the message says how to repair it."""
 
 
 @dataclass(frozen=True)
@@ -35,22 +35,22 @@ class Sheet:
 
     @property
     def stem(self) -> str:
-        """Its name in the study."""
+        """Name of the table in its study."""
         return self.path.name.partition(".")[0]
 
     @property
     def file(self) -> str:
-        """study/table.csv, packed or not"""
+        """Path in the results: study/table.csv or study/table.csv.gz."""
         return f"{self.path.parent.name}/{self.path.name}"
 
     @property
     def anchor(self) -> str:
-        """Its place in the page."""
+        """Anchor of the table in the page."""
         return f"table-{self.path.parent.name}-{self.stem}"
 
     @cached_property
     def head(self) -> list[str]:
-        """The comments above the columns, without those that are there for programs."""
+        """Comments above the columns, without those for programs."""
         lines = content(self.path).splitlines()
         comments = [line for line in lines if line.startswith("#")]
         return [line[1:].strip() for line in comments if not line.startswith(TEXT)]
@@ -62,13 +62,13 @@ class Sheet:
 
     @cached_property
     def commits(self) -> list[str]:
-        """Commit of the head, or where the head names none, those of the rows."""
+        """Commit of the head, or if the head names none, commits of the rows."""
         of_head = [line.removeprefix("commit ") for line in self.head if line.startswith("commit ")]
         return of_head or sorted(set(self.frame.get("commit", ())))
 
     @property
     def made(self) -> str:
-        """Commit, and of how many commits the rows are when they are of several."""
+        """Commit of the head, and the number of commits of the rows if there are several."""
         number = len(set(self.frame.get("commit", ())))
         if number > 1 and len(self.commits) == 1:
             return f"{self.commits[0]}, rows of {number} commits"
@@ -76,7 +76,7 @@ class Sheet:
 
 
 class Folder(NamedTuple):
-    """What a folder asks, its tables and figures, and the study that makes them, if one does."""
+    """A folder of results: its question, tables and figures, and the study that makes them, if any."""
     name: str
     question: str
     sheets: list[Sheet]
@@ -85,7 +85,7 @@ class Folder(NamedTuple):
 
 
 def folders(out: Path) -> list[Folder]:
-    """All that have tables or figures; NoReport where there are none."""
+    """All folders with tables or figures. Raises NoReport: there are none."""
     paths = [path for path in out.glob("*/") if path.name not in HIDDEN]
     known = [folder for folder in map(folder_of, paths) if folder.sheets or folder.pictures]
     if not known:
@@ -94,12 +94,12 @@ def folders(out: Path) -> list[Folder]:
 
 
 def place(name: str, order: Sequence[str]) -> int:
-    """Which one of an order it is; what the order does not name comes after it."""
+    """Position of a name in an order; names that are not in it come last."""
     return order.index(name) if name in order else len(order)
 
 
 def folder_of(path: Path) -> Folder:
-    """A folder, its figure `main` first."""
+    """Contents of a folder, with the figure `main` first."""
     study = study_of(path.name) if path.name in names() else None
     declared = {table.file: [*table.columns, *STAMP] for table in (study.tables if study else ())}
     files = sorted([*path.glob("*.csv"), *path.glob("*.csv.gz")])
@@ -109,13 +109,13 @@ def folder_of(path: Path) -> Folder:
 
 
 def drawings(folder: Folder) -> dict[str, Drawing]:
-    """Figure -> what draws it, of those that the study lists."""
+    """Figure -> its drawing, for figures that the study lists."""
     listed = folder.study.figures.drawings if folder.study else ()
     return {drawing.name: drawing for drawing in listed}
 
 
 def claims_of(out: Path) -> pd.DataFrame:
-    """All claims. Raises NoReport: there are none."""
+    """All claims. Raises NoReport: claims.csv does not exist."""
     path = out/"claims.csv"
     if not path.exists():
         raise NoReport(f"{path} does not exist: studies write their verdicts there: make study-rb")

@@ -1,4 +1,4 @@
-"""results/index.html: one file with all in it, from texts, tables, figures and films; no solver is run."""
+"""results/index.html: one file that contains texts, tables, figures and films; no solver runs."""
 import base64
 import inspect
 import io
@@ -23,23 +23,23 @@ from studies.report.equations import filled, short, signed, with_error
 from studies.report.inventory import Folder, NoReport, Sheet, claims_of, drawings, folders
 from studies.report.text import TEXTS, document, examples, opening, target
 
-#: template, style, script, and what to see in each figure
+#: folder of template, style, script, and sentences on what each figure shows
 PARTS = Path(__file__).with_name("page")
-#: what the page may weigh [bytes]
+#: largest size of the page [bytes]
 LIMIT = 7_800_000
 VERDICTS = {"holds": "✓", "fails": "✗", "undecidable": "?"}
-#: papers whose equations can be chosen
+#: papers whose equations a reader can choose
 PAPERS = ("KHP95", "RR98")
-#: films.csv says what is seen; films in the order of the page, others follow
+#: table of films: caption and numbers of each
 FILMS = Table.of("films", "method", "caption ra rows grid_rows t_end last_ke last_ke_grid",
                  about="A film of convection beside the grid.",
                  means={"t_end": ("free-fall times that it shows", "")})
 
 
 def write_page(out: Path) -> Path:
-    """Write index.html, all or nothing; its path.
+    """Write index.html, all or nothing; return its path.
 
-    Raises NoReport: Something is missing or broken, or too large; an older page stays as it is.
+    Raises NoReport: a source is missing or broken, or the page too large; an older page stays as it is.
     """
     check_inside(out)
     text = render(out, folders(out))
@@ -74,7 +74,7 @@ def render(out: Path, known: list[Folder]) -> str:
 
 
 def check_inside(out: Path) -> None:
-    """Refuse links that lead out of the folder: the page, which is passed on, would hold other files."""
+    """Raise NoReport for a link that leads out of the folder: the page would publish other files."""
     for path in out.rglob("*"):
         shown = path.relative_to(out).parts[0] not in ("raw", "quick", "own")
         if shown and not path.resolve().is_relative_to(out.resolve()):
@@ -82,7 +82,7 @@ def check_inside(out: Path) -> None:
 
 
 def in_order(claims: pd.DataFrame) -> pd.DataFrame:
-    """Claims by the places that they judge: paper, equation, figure, section."""
+    """Claims sorted by the places that they judge: paper, equation, figure, section."""
     order = claims["source"].map(lambda source: places(source)[0].order)
     return claims.loc[order.sort_values(kind="stable").index]
 
@@ -94,7 +94,7 @@ def cited(claims: pd.DataFrame) -> dict[str, int]:
 
 
 def value_of(value: float, err: float) -> str:
-    """A measured value with its interval; none."""
+    """A measured value with its interval, as text; a dash for none."""
     if math.isnan(value):
         return "—"
     if 1e-3 <= abs(value) < 1e6 and err > 1e-6*abs(value):
@@ -103,7 +103,7 @@ def value_of(value: float, err: float) -> str:
 
 
 class Shown(NamedTuple):
-    """A figure: size in pixels, what to see, what is drawn, its tables, file and function that draw it."""
+    """A figure: file, size [pixels], what to see in it, caption, tables, file and function that draw it."""
     path: Path
     size: tuple[int, int]
     see: str
@@ -113,12 +113,12 @@ class Shown(NamedTuple):
 
     @property
     def name(self) -> str:
-        """study/figure"""
+        """Name as study/figure."""
         return f"{self.path.parent.name}/{self.path.stem}"
 
     @property
     def wide(self) -> int:
-        """Width [CSS pixels] at which its text is as large as that of the page: it has 150 pixels an inch."""
+        """Width [CSS pixels] at which its text is as large as the page's: figures have 150 pixels an inch."""
         return self.size[0]*96//150
 
     @property
@@ -129,7 +129,7 @@ class Shown(NamedTuple):
 
 
 def figures(folder: Folder, claims: pd.DataFrame) -> list[Shown]:
-    """Figures of a study; of one that its study does not list the tables are all there are."""
+    """Figures of a folder; a figure that the study does not list has all tables of the folder."""
     listed = drawings(folder)
     see = tomllib.loads((PARTS/"figures.toml").read_text()).get(folder.name, {})
     shown = []
@@ -145,12 +145,12 @@ def figures(folder: Folder, claims: pd.DataFrame) -> list[Shown]:
 
 
 def source(draw: Any, png: Path) -> str:
-    """The file with a function, from the page in the folder above a figure's."""
+    """Path of a function's file, relative to the folder of the page, which is above that of the figure."""
     return os.path.relpath(inspect.getsourcefile(draw) or "", png.parent.parent.resolve())
 
 
 def size_of(path: Path) -> tuple[int, int]:
-    """Width and height of a picture [pixels]; NoReport where the file is none."""
+    """Width and height of a picture [pixels]. Raises NoReport: the file is no picture."""
     try:
         with Image.open(path) as picture:
             picture.load()
@@ -160,18 +160,18 @@ def size_of(path: Path) -> tuple[int, int]:
 
 
 def embedded(path: Path) -> str:
-    """The address of a picture that holds its content."""
+    """Data URL of a PNG file."""
     return address("image/png", path.read_bytes())
 
 
 def address(kind: str, content: bytes) -> str:
-    """An address that holds its content."""
+    """Data URL of a content."""
     text = base64.b64encode(content).decode()
     return f"data:{kind};base64,{text}"
 
 
 def ffmpeg() -> ModuleType:
-    """What reads and writes films. Raises NoReport: It is not installed."""
+    """Module that reads and writes films. Raises NoReport: it is not installed."""
     try:
         import imageio_ffmpeg
     except ImportError as error:
@@ -180,14 +180,14 @@ def ffmpeg() -> ModuleType:
 
 
 def films(out: Path) -> list[dict]:
-    """What films.csv says of films, and what is in their files."""
+    """Rows of films.csv, each with the content of the film's file."""
     path = out/"films/films.csv"
     rows = read(path, [*FILMS.columns, "seed", "commit"]).to_dict("records") if path.exists() else []
     return [row | in_file(path.with_name(f"{row['method']}.mp4")) for row in rows]
 
 
 def in_file(path: Path) -> dict[str, Any]:
-    """A film's content, size and last picture; NoReport where the file is missing or is no film."""
+    """Content, size and last picture of a film. Raises NoReport: the file is missing or is no film."""
     if not path.exists():
         raise NoReport(f"{path} is missing: make films makes it again")
     reader = ffmpeg()

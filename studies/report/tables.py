@@ -1,4 +1,4 @@
-"""results/tables.md: of each table what a row is, its columns, and their units. No solver runs for it."""
+"""results/tables.md: for each table, what a row is, its columns, and their units. No solver runs."""
 import csv
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -9,7 +9,7 @@ from studies.kit.table import Table
 from studies.report.inventory import FIRST, NoReport
 from studies.report.page import FILMS
 
-#: column -> (meaning, unit), the same in all tables that do not say otherwise
+#: column -> (meaning, unit), for all tables without a meaning of their own for the column
 COLUMNS: dict[str, tuple[str, str]] = {}
 with Path(__file__).with_name("columns.csv").open(newline="") as file:
     for line in csv.DictReader(file):
@@ -20,7 +20,7 @@ WHAT = {"what": ("what was timed or counted", ""), "value": ("a number that is n
 
 
 def speed(name: str, about: str) -> Table:
-    """One of those that `bench` writes."""
+    """A table of times that `bench` writes."""
     return Table.of(name, "what particles threads", TIMED, means=WHAT,
                     about=f"A time, or another number. {about}.")
 
@@ -47,14 +47,14 @@ HEAD = Path(__file__).parent/"sentences"/"tables.md"
 
 
 def write_tables(out: Path) -> Path:
-    """Write tables.md into a folder; its path."""
+    """Write tables.md into a folder; return its path."""
     path = out/"tables.md"
     write_atomic(path, text())
     return path
 
 
 def text() -> str:
-    """The whole file."""
+    """Text of the whole file."""
     parts = [HEAD.read_text()]
     for folder, tables in folders():
         parts.append(f"\n## {folder}\n")
@@ -70,12 +70,12 @@ def folders() -> Iterator[tuple[str, Sequence[Table]]]:
 
 
 def lines(folder: str, table: Table) -> Iterator[str]:
-    """A table: what a row is, then its columns."""
+    """Markdown of a table: what a row is, then its columns."""
     path = f"{folder}/{table.file}"
     yield f"### [{path}]({path})\n\n{table.about}\n\n| column | meaning | unit |\n|---|---|---|"
     for column in table.columns:
         if column.removesuffix("_err") in {*table.columns} - {column}:
-            continue        # told with what it is the error of
+            continue        # listed together with its value
         what, unit = meaning(table, column)
         name = f"**`{column}`**" if column in table.key else f"`{column}`"
         error = f", `{column}_err`" if f"{column}_err" in table.columns else ""
@@ -84,7 +84,7 @@ def lines(folder: str, table: Table) -> Iterator[str]:
 
 
 def meaning(table: Table, column: str) -> tuple[str, str]:
-    """What a column is, and its unit. Raises NoReport: nobody said so."""
+    """Meaning and unit of a column. Raises NoReport: they are not defined."""
     if column in table.means:
         return table.means[column]
     if column not in COLUMNS:

@@ -1,4 +1,4 @@
-"""Texts and examples of the repository in the page: links lead to figures, tables and words in it."""
+"""Texts and examples of the repository in the page, with links to figures, tables and words in it."""
 import ast
 import os
 import re
@@ -16,28 +16,28 @@ from studies.kit.sweep import RESULTS
 from studies.report.inventory import HIDDEN, NoReport
 
 MARKDOWN = MarkdownIt("commonmark").enable("table")
-#: suffix of a file in a folder of results -> what it is in the page
+#: suffix of a file of results -> its kind in the page
 KINDS = {".png": "figure", ".csv": "table"}
-#: question, words with the answer, picture, table with its note, as README.md begins
+#: beginning of README.md: question, words with the answer, picture, table with its note
 OPENING = re.compile(r"\*\*(.+?)\*\*\n\n(.+?)\n<img .+?>\n(.+?)\n## ", re.DOTALL)
-#: files that the page has as a whole
+#: files that the page contains as a whole
 TEXTS = ("equations", "findings", "tables")
-#: how ids of claims begin that texts name
+#: beginnings of ids of claims
 CLAIM = ("rr98-", "khp95-", "own-")
-#: of a picture of an example [pixels], and how many colours it keeps
+#: largest size of the picture of an example [pixels], and its number of colours
 WIDTH, COLOURS = 960, 128
 SCROLL = '<div class="scroll" tabindex="0" role="region" aria-label="Table"><table>'
 
 
 class Opening(NamedTuple):
-    """The first screen."""
+    """First screen of the page: question, answer, table of methods to choose from."""
     question: str
     words: Markup
     choice: Markup
 
 
 def opening(out: Path) -> Opening:
-    """How README.md begins. Raises NoReport: it begins otherwise."""
+    """First screen, from the beginning of README.md. Raises NoReport: this has another form."""
     found = OPENING.search((ROOT/"README.md").read_text())
     if not found:
         raise NoReport("README.md does not begin with a bold question, words, an <img> and a table above its "
@@ -47,14 +47,14 @@ def opening(out: Path) -> Opening:
 
 
 def document(path: Path, out: Path) -> Markup:
-    """A file without its title; nothing where there is none."""
+    """HTML of a Markdown file without its title; empty if there is no file."""
     if not path.exists():
         return Markup()
     return html(path.read_text().partition("\n")[2], path.parent, out)
 
 
 def html(text: str, home: Path, out: Path) -> Markup:
-    """Markdown of a file in the folder ``home``; headings two levels deeper, tables in boxes that scroll."""
+    """HTML of Markdown in the folder ``home``; headings two levels deeper, tables in boxes that scroll."""
     tokens = MARKDOWN.parse(text)
     for token in tokens:
         if token.type.startswith("heading"):
@@ -68,7 +68,7 @@ def html(text: str, home: Path, out: Path) -> Markup:
 
 
 def explained(code: re.Match[str]) -> str:
-    """The name of a method or the id of a claim, linked to what it stands for."""
+    """Name of a method or id of a claim, linked to its explanation; other code as it is."""
     name = code[1]
     if name in words.METHODS or name in words.VARIATIONS:
         return f'<a class="word" href="#word-{name}">{code[0]}</a>'
@@ -76,13 +76,13 @@ def explained(code: re.Match[str]) -> str:
 
 
 def target(href: str, home: Path, out: Path) -> str:
-    """Where a link leads that stands in the folder ``home``: into the page, or from it to the file."""
+    """Target of a link in a file of the folder ``home``: an anchor in the page, or a path from the page."""
     if "://" in href or href.startswith("#"):
         return href
     path = (home/href).resolve()
     within = Path(os.path.relpath(path, RESULTS if path.is_relative_to(RESULTS) else out.resolve()))
     kind = KINDS.get("".join(within.suffixes[:1])) if within.parts[0] not in HIDDEN else None
-    if kind and len(within.parts) == 2 and any(out.glob(f"{within}*")):     # packed or not
+    if kind and len(within.parts) == 2 and any(out.glob(f"{within}*")):     # gzipped or not
         return f"#{kind}-{within.parent}-{within.name.partition('.')[0]}"
     if within.suffix == ".md" and str(within.with_suffix("")) in TEXTS and (out/within).exists():
         return f"#text-{within.stem}"
@@ -93,7 +93,7 @@ def target(href: str, home: Path, out: Path) -> str:
 
 
 class Example(NamedTuple):
-    """A script, what it says of itself, and its picture."""
+    """An example: name, description, script and picture."""
     name: str
     about: str
     script: str
@@ -101,7 +101,7 @@ class Example(NamedTuple):
 
 
 def examples(out: Path) -> Iterator[Example]:
-    """All scripts that have a picture; the first paragraph of the docstring says what one is about."""
+    """Examples that have a picture; the first paragraph of the docstring is the description."""
     for path in scripts():
         script, picture = path.read_text(), out/"gallery"/f"{path.stem}.png"
         about = (ast.get_docstring(ast.parse(script)) or path.stem).split("\n\n")[0].split("\n`")[0]
@@ -110,7 +110,7 @@ def examples(out: Path) -> Iterator[Example]:
 
 
 def write_gallery(out: Path) -> list[Path]:
-    """Pictures of examples in out/own made small; their paths. Raises NoReport: none is there."""
+    """Write small copies of examples' pictures in out/own; return them. Raises NoReport: no picture."""
     drawn = [out/"own"/f"{path.stem}.png" for path in scripts()]
     there = [path for path in drawn if path.exists()]
     if not there:
@@ -119,12 +119,12 @@ def write_gallery(out: Path) -> list[Path]:
 
 
 def scripts() -> list[Path]:
-    """Of all examples."""
+    """Scripts of all examples."""
     return sorted((ROOT/"examples").glob("[!_]*.py"))
 
 
 def smaller(path: Path, folder: Path) -> Path:
-    """A copy of a picture in another folder."""
+    """Write a smaller copy of a picture into another folder; return its path."""
     folder.mkdir(exist_ok=True)
     picture = Image.open(path).convert("RGB")
     picture.thumbnail((WIDTH, WIDTH))
