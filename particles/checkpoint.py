@@ -122,7 +122,7 @@ def _groups(plan: Plan) -> tuple[tuple[str, list[str]], ...]:
 
 
 def load(path: Path | None, method: Any, plan: Plan, start: np.ndarray) -> Run | None:
-    """Load the run at `path`; None if there is none. Raises ValueError: unreadable, or of another run."""
+    """Load the run at `path`, None without one. Raises ValueError: unreadable, of another run, too long."""
     if path is None:
         return None
     wanted = _identity(method, plan, start)

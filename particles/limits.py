@@ -24,8 +24,8 @@ from particles.threads import Threads
 from particles.weights import value_and_slope
 
 TRIALS = 40         # evaluations of the rates of a method without a formula
-TINY = 1e-7         # relative change of a state from which the change of its rates is taken
-STEP = 1e-3         # in fields of order 1: truncation is STEP^4 = 1e-12 of fifth derivatives, round-off 1e-13
+TINY = 1e-7         # relative change of a state in a difference quotient of its rates
+STEP = 1e-3         # in fields of order 1: errors are STEP^4 = 1e-12 of fifth derivatives, round-off 1e-13
 
 
 class Symbols(NamedTuple):

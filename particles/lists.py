@@ -138,7 +138,7 @@ class Ghosts(NamedTuple):
             records[name][first:] = found*self.turn if name in odd else found
 
     def fill_work(self, points: np.ndarray, slopes: np.ndarray, V: np.ndarray) -> None:
-        """Set the energy flux F of ghosts by work: Fx, along plates, is even, Fy, across them, is odd."""
+        """Copy F, the energy flux by work, to ghosts: Fx, along plates, is even, Fy, across them, odd."""
         self.fill(points, ("Fx",), ("Fy",))
 
 

@@ -137,7 +137,7 @@ def zero(term):
 
 
 def pair_term(kind: type, columns: int) -> Callable:
-    """Decorator: the formula becomes the `rate` of a type of term, whose sums have so many columns.
+    """Decorator that makes a formula the `rate` of a type of term, whose sums have so many columns.
 
     rate(term, a, b, ab) is the gain of `a`. On edges, ab is an `Edge`, points have rho, vx, vy, T, P, eps,
     eta, k, and ux, uy, Td as friction and heat see them; columns are mass, momentum (2), energy.

@@ -18,7 +18,7 @@ def check_volumes(V: np.ndarray) -> None:
 
 
 class Overlap(ValueError):
-    """Two points lie in one place; pairing may bring them there, too."""
+    """Two points lie in one place, where pairing may bring them, too."""
 
 
 def check_apart(around: PairLists, ids: np.ndarray, a: float) -> None:

@@ -27,7 +27,7 @@ def slope(weight, q):
 
 LONGEST = 1e100     # largest range; its cube is a finite float
 Formula = Callable[[None, float], float]
-#: q, off the knots of splines, where the slope is compared with a difference quotient; step of the latter
+#: q, off the knots of splines, where the slope is compared with a difference quotient, and its step
 PLACES, STEP = (0.1370, 0.3891, 0.6129, 0.8713), 1e-5
 #: relative to the largest value: what expanded polynomials with coefficients of thousands leave at q = 1
 ROUND_OFF = 1e-12

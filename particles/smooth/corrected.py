@@ -2,7 +2,7 @@
 
     M_i = sum_j V_j (x_j - x_i) grad_i w,    B_i = M_i^-1,    V = m/rho
 
-Gradients by B_i grad_i w are exact on linear fields. With grad_i w alone, pressure acts as a stress P M, which
+Gradients by B_i grad_i w are exact on linear fields. By grad_i w alone pressure acts as a stress P M, which
 has a deviator where particles were sheared; a fluid has none. The force of a pair is V_i V_j (P_i A + P_j C):
 
     sumB       A = B_i grad_i w, C = B_j grad_i w              stress P M B = P 1
@@ -11,8 +11,8 @@ has a deviator where particles were sheared; a fluid has none. The force of a pa
 
 Friction and heat act along pairs, tr M_i/2 times as strongly as they should; `All` corrects this as well
 [Schwaiger 2008, its first factor, made symmetric]. The part of a fluid's stress that friction along pairs
-lacks, tau = eta ((-d_y v, d_y u), (d_x v, -d_x u)), acts over A + C: without it rigid rotation heats. Momentum
-and energy are conserved by each pair: P_i A does its work on i, P_j C on j, friction half of it on each.
+lacks, tau = eta ((-d_y v, d_y u), (d_x v, -d_x u)), acts over A + C: without it rigid rotation heats. Each
+pair conserves momentum and energy: P_i A does its work on i, P_j C on j, friction half of it on each.
 """
 from typing import Any, ClassVar, NamedTuple
 

@@ -6,16 +6,16 @@ Particles move with v + d. The shifting velocity d and the diffusion of densitie
     delta h c sum_j V_j psi.grad W, x = x_i - x_j
     psi = 2 (rho_i - rho_j - (grad rho_i + grad rho_j).x/2) x/x^2    [Antuono et al. 2010]
 
-U is the largest speed relative to the mean velocity; in the papers it is the largest expected speed. With Ma c0
+U is the largest speed relative to the mean velocity; in the papers it is the largest expected speed. As Ma c0
 = U, CFL cancels in Sun 2017's shift over dt. The force of a pair is V_i V_j (P_i + P_j) grad W; friction and
 heat are those of `Direct`.
 
-Differences from the papers: P(rho, T) and its c replace c0^2 (rho - rho0) and c0, and e is a row of the state.
+Differences from the papers: P(rho, T) and its c replace c0^2 (rho - rho0) and c0, and states have a row e.
 In Sun 2019 d carries density and momentum while masses are constant, which neither conserves momentum nor is
 Galilean invariant. Here d carries mass, as in Antuono et al. 2021 but without diffusion of mass, and energy:
 with g = V_i V_j grad W particle i gains (rho_i q_i d_i + rho_j q_j d_j).g of q = 1, v, e + v^2/2. Each pair
-conserves all three; the potential energy of mass that d lifts is not accounted for. The continuity equation is
-that of Sun 2019, whose volumes need not fill the box.
+conserves all three; the potential energy of mass that d lifts is not counted. The continuity equation is that
+of Sun 2019, whose volumes need not fill the box.
 """
 from typing import Any, ClassVar, NamedTuple
 

@@ -1,8 +1,8 @@
 """Smooth-particle applied mechanics as printed [KHP95, Sec. II], and its named variants.
 
-Three sums: density; gradients of v and T; divergence of P/rho^2 and Q/rho^2. A variant replaces a
-printed choice by another object: `ArithmeticGradients()` for the mean density, `Direct` for `Nested`
-transport, `LessStatic(...)` for the whole pressure, another weight.
+Three sums: density; gradients of v and T; divergence of P/rho^2 and Q/rho^2. A variant puts another object in
+place of the printed choice: `ArithmeticGradients()` for the mean density, `Direct` for `Nested` transport,
+`LessStatic(...)` for the whole pressure, another weight.
 """
 from dataclasses import dataclass
 from typing import Any, NamedTuple
@@ -21,10 +21,10 @@ from particles.weights import check_unit
 
 
 class LessStatic(NamedTuple):
-    """Subtract `fraction` of the static pressure P0 - rho0 g y from P, and its gradient from gravity.
+    """Subtract `fraction` of the static pressure P0 - rho0 g y from P, and its force from gravity.
 
     This lowers the background pressure, which holds particles on a lattice [KHP95, Sec. IV]; fraction = 0 is
-    the printed scheme. The subtracted part does work by the summed div v: energy is not conserved exactly.
+    the printed scheme. The subtracted part works by div v of the second sum: energy is not exactly conserved.
     """
     fraction: float
     P0: float

@@ -1,4 +1,4 @@
-"""The sums of smooth particles: densities, gradients, stress and heat flux over pairs, compiled    [KHP95, Sec. II]"""
+"""Compiled pair sums of smooth particles: density, gradients, stress and heat flux    [KHP95, Sec. II]"""
 from abc import ABC, abstractmethod
 from typing import Any, ClassVar
 
@@ -113,7 +113,7 @@ class SmoothSums(Listed, ABC):
 
 
 class Nested(SmoothSums):
-    """Stress and heat flux from gradients of the second sum, their divergence by the third    [KHP95, Sec. II]"""
+    """Stress and heat flux from the second sum's gradients, divergence by the third    [KHP95, Sec. II]"""
     symbol = "nested"
 
     def allocate(self, points: int) -> None:

@@ -8,12 +8,12 @@ Density is summed, V = m/rho. Particles move with v~ = v + d, and P is taken rel
 
 The paper's P0 = rho0 c0^2/gamma is the pressure of our gas at its mean state. `LessStatic` with fraction 1
 subtracts all of P0, as the paper's P = c0^2 (rho - rho0) does; its work is then by gradients of v, so that
-energy is not conserved exactly. tau is half of the paper's time step, as in its step from v to v~ [Eq. 15]; this
-time step is its acoustic limit, 0.25 a/c of each particle, whatever dt is. Friction and heat are those of
+energy is not conserved exactly. tau is half of the paper's time step, as in its kick from v to v~ [Eq. 15];
+this step is its acoustic limit, 0.25 a/c of each particle, whatever dt is. Friction and heat are those of
 `Direct`, in place of Adami's harmonic mean. Each particle of a pair gets half of the work of its forces. The
 paper's walls extrapolate P by gravity; here images copy it.
 
-As in the paper, the force by A lacks v div(rho d): rates are Galilean invariant only where A is zero. Energy has
+As in the paper, forces by A lack v div(rho d): rates are Galilean invariant only where A is zero. Energy has
 no such term: v~ carries heat. A flux e d without mass would heat by e div d, and e, unlike v, is not small.
 """
 from typing import Any, NamedTuple
