@@ -125,7 +125,7 @@ class PairLists:
 
 
 class Ghosts(NamedTuple):
-    """Of each ghost: index of its origin; -1 behind an odd number of plates, else 1; T of the last plate."""
+    """Index of each ghost's origin; -1 behind an odd number of plates, else 1; T of the last plate."""
     origin: np.ndarray
     turn: np.ndarray
     plate_T: np.ndarray
@@ -188,7 +188,7 @@ class Listed(Sums):
             self.around.anchor = None       # lists are made anew before the first step
 
     def look_over(self, state: np.ndarray, ids: np.ndarray) -> None:
-        """Check points at the start for faults that the sums would not notice; here for none."""
+        """Check points at the start for faults that the sums would not notice; does nothing here."""
 
     def make_ready(self, now: Any, dt: float) -> None:
         """Sort particles and make new lists if the step may bring a particle beyond the skin."""
