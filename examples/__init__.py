@@ -9,12 +9,12 @@ from typing import Any
 
 
 def picture(name: str) -> Path:
-    """Where the picture of an example goes, which is printed."""
+    """Path of the picture of an example; prints it."""
     path = Path("results/own")/f"{name}.png"
     print("picture:", path)
     return path
 
 
 def sized(usual: Any, quick: Any) -> Any:
-    """The second where SIZE is quick."""
+    """The value `quick` if SIZE is quick, else `usual`."""
     return quick if os.environ.get("SIZE") == "quick" else usual

@@ -17,7 +17,7 @@ print(f"|Q - 2 kT Gamma|/|2 kT Gamma|: one stress a point {mismatch(points, 2*kT
 
 rng, dt, masses = np.random.default_rng(1), 0.05, np.tile(edges.V, 2)
 v, seen = np.zeros(2*edges.n), []
-for _ in range(sized(4000, 200)):       # momenta by an implicit middle would be exact; a short step will do
+for _ in range(sized(4000, 200)):       # implicit midpoint would be exact; a short step is enough
     p = masses*v - dt*(points.Gamma@v) + np.sqrt(dt)*(points.B@rng.standard_normal(points.B.shape[1]))
     v = p/masses
     seen.append(float(masses@v**2)/len(v)/kT)

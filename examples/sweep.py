@@ -11,7 +11,7 @@ from studies.kit.figure import figure, save
 
 
 def energy(ra: float) -> float:
-    """K of 16 rows."""
+    """K of lattice points at a Rayleigh number."""
     return solve("rayleigh-benard", "fixed-lattice", rows=sized(16, 8), ra=ra, time=sized(90, 5)).K.value
 
 

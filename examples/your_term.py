@@ -9,7 +9,7 @@ from studies.front import compare
 
 
 class Rusanov(NamedTuple):
-    """Each edge takes away c |S|/2 of the difference of mass, momentum and energy between its ends."""
+    """Flux over an edge: c |S|/2 times the difference of mass, momentum and energy between its ends."""
     c: float
 
 
@@ -20,7 +20,7 @@ def _(term, a, b, ab):      # points have rho, vx, vy, T, P, eps (energy per vol
 
 
 def rusanov(scene):
-    """Lattice points with the term, in any scene: `solve` and `compare` take such a function for a method."""
+    """Lattice points with the term, in any scene: `solve` and `compare` take such a function as a method."""
     return with_term(ready(scene, "fixed-lattice-h1.2").method, Rusanov(c=1.2))
 
 

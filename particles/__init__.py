@@ -1,1 +1,1 @@
-"""Fluids as particles: weights, pair sums, walls, methods and the one time loop."""
+"""Particle methods for fluids: weights, pair sums, walls, methods, and the only time loop."""

@@ -1,4 +1,4 @@
-"""Checkpoints of a run as HDF5: written beside and then renamed, so the last good one survives."""
+"""Checkpoints of a run as HDF5 files. A new file replaces the last one only when it is complete."""
 import hashlib
 import io
 import os
@@ -18,15 +18,15 @@ from continuum.jit import source_hash
 from particles.plan import Plan, Run
 
 SCALARS = ("step", "samples", "reflections", "skin", "cpu_s", "compile_s")
-#: bytes before the HDF5 file, which its readers skip: the hash of all that follow
+#: size in bytes of the block before the HDF5 data, which HDF5 readers skip: it holds the hash of the data
 SEAL = 512
-#: what repr says completely
+#: types whose repr identifies a value completely
 PLAIN = (bool, int, float, complex, str, bytes, np.generic, type(None), type(...), Enum, PurePath)
 
 
 def told(value: Any, within: tuple[int, ...] = ()) -> str:
-    """What tells a value from another, the same in every process. TypeError: nothing does."""
-    value = getattr(value, "py_func", value)        # of a compiled function the one that was written
+    """Text that identifies a value, the same in every process. Raises TypeError: no text identifies it."""
+    value = getattr(value, "py_func", value)        # of a compiled function, its Python source
     if isinstance(value, PLAIN):
         return repr(value)
     if isinstance(value, type):
@@ -40,9 +40,9 @@ def told(value: Any, within: tuple[int, ...] = ()) -> str:
 
 
 def _parts(value: Any) -> Any:
-    """What a value is made of: of an object all that it holds, but for cached properties."""
+    """Parts that identify a value; of an object all attributes except cached properties."""
     match value:
-        case np.ndarray() if value.dtype.names or value.dtype.hasobject:    # gaps, pointers
+        case np.ndarray() if value.dtype.names or value.dtype.hasobject:    # bytes hold gaps, pointers
             return str(value.dtype), value.tolist()
         case np.ndarray():
             return str(value.dtype), value.shape, hashlib.sha256(value.tobytes()).hexdigest()
@@ -72,14 +72,14 @@ def _parts(value: Any) -> Any:
 
 
 def _identity(method: Any, plan: Plan, start: np.ndarray) -> dict[str, str]:
-    """What must be the same for a restart to be the same run."""
+    """Texts that must agree between a checkpoint and the run that continues it."""
     words = (f"{told(method)} dt={plan.dt!r} every={plan.every} mean_from={plan.mean_from!r} "
              f"{told(plan.series)} {told(plan.means)}")
     return {"code": source_hash(), "parameters": words, "start": told(start)}
 
 
 def save(path: Path, method: Any, plan: Plan, start: np.ndarray, now: Run) -> None:
-    """Write the run to `path`; on a full disk the former checkpoint stays and OSError says so."""
+    """Write the run to `path`. Raises OSError, as on a full disk; the former checkpoint then stays."""
     beside = path.with_name(f"{path.name}.part")
     path.parent.mkdir(parents=True, exist_ok=True)
     try:
@@ -101,11 +101,11 @@ def _seal(content: bytes) -> bytes:
 
 
 def _packed(identity: dict[str, str], plan: Plan, now: Run) -> bytes:
-    """A run as an HDF5 file without its seal; series and sums are numbered, their names may be any text."""
+    """The run as HDF5 data without the seal. Series and sums are numbered, as their names may be any text."""
     whole = io.BytesIO()
     with h5py.File(whole, "w", userblock_size=SEAL) as file:
         for name, text in identity.items():
-            file[name] = text       # attributes are short
+            file[name] = text       # HDF5 limits the size of attributes
         for name in SCALARS:
             file.attrs[name] = getattr(now, name)
         for name in ("state", "ids", "anchor", "times"):
@@ -122,7 +122,7 @@ def _groups(plan: Plan) -> tuple[tuple[str, list[str]], ...]:
 
 
 def load(path: Path | None, method: Any, plan: Plan, start: np.ndarray) -> Run | None:
-    """The run at `path`, None without one. ValueError: unreadable, of another run, or beyond its end."""
+    """Load the run at `path`, None without one. Raises ValueError: unreadable, of another run, too long."""
     if path is None:
         return None
     wanted = _identity(method, plan, start)

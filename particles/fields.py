@@ -1,4 +1,4 @@
-"""Fields of a state, in terms that all methods share, and their kinetic energy."""
+"""Fields of a state in the variables that all methods share, and their kinetic energy."""
 from math import isfinite
 from numbers import Real
 from typing import Any
@@ -9,7 +9,7 @@ from continuum.fluid import Fields, temperature
 
 
 def check_numbers(**numbers: Any) -> None:
-    """Refuse what is no number, TypeError, or none that is finite, ValueError."""
+    """Check that all values are finite numbers. Raises TypeError: not a number; ValueError: not finite."""
     for name, value in numbers.items():
         if isinstance(value, bool) or not isinstance(value, Real):
             raise TypeError(f"{name} must be a number, got {value!r}: give it without quotes or brackets")
@@ -18,7 +18,7 @@ def check_numbers(**numbers: Any) -> None:
 
 
 def check_plain(what: str, *arrays: Any) -> None:
-    """Refuse arrays that are not of real numbers, or have a mask: TypeError."""
+    """Check that arrays hold real numbers and have no mask. Raises TypeError."""
     for given in arrays:
         if np.asanyarray(given).dtype.kind not in "iuf" or isinstance(given, np.ma.MaskedArray):
             kind = f"{type(given).__name__} of {np.asanyarray(given).dtype}"
@@ -27,7 +27,7 @@ def check_plain(what: str, *arrays: Any) -> None:
 
 def from_densities(eos: Any, x: np.ndarray, V: np.ndarray, rho: np.ndarray, p: np.ndarray,
                    eps: np.ndarray) -> Fields:
-    """Fields of density rho (n,), momentum p (d, n) and total energy eps (n,), each per volume."""
+    """Fields from density rho (n,), momentum p (d, n) and total energy eps (n,), each per volume."""
     v = (p/rho).T
     e = eps/rho - (v**2).sum(axis=1)/2
     return Fields(x, v, rho, temperature(eos, rho, e), V)
@@ -40,5 +40,5 @@ def kinetic_energy(fields: Fields) -> float:
 
 
 def kinetic(sums: Any, state: np.ndarray) -> float:
-    """The same as a quantity of a run, of any method."""
+    """Kinetic energy per mass, as a quantity that a run of any method records."""
     return kinetic_energy(sums.method.fields(state))

@@ -1,4 +1,4 @@
-"""Time steps, shared by all methods."""
+"""Time integrators that all methods share."""
 from typing import Any
 
 import numpy as np
@@ -37,7 +37,7 @@ class RK4:
 
 
 class Euler:
-    """Forward Euler for everything    [RR98 Eq. 40]"""
+    """Forward Euler for all rows of a state    [RR98 Eq. 40]"""
     evaluations = 1
 
     def __init__(self, shape: tuple[int, ...], threads: Threads):
@@ -49,10 +49,10 @@ class Euler:
 
 
 class TwoStep(Euler):
-    """Forward Euler for the fields, then positions with the velocities that come out    [RR98 Eqs 40, 41]
+    """Forward Euler for the fields, then for positions with the new velocities    [RR98 Eqs 40, 41]
 
-    sums.places : number of the first rows of a state that are positions; sums.velocity(y) their rates. Points
-    that stand still have neither: then this is Euler.
+    sums.places : number of leading rows of a state that are positions; sums.velocity(y) : their rates. Points
+    that stay have neither; this integrator is then `Euler`.
     """
 
     def step(self, sums: Any, y: np.ndarray, dt: float) -> None:

@@ -1,14 +1,14 @@
-"""The largest stable step: fastest small motions of a square lattice, and RK4's stability region.
+"""The largest stable time step: eigenvalues of a linearised method, and RK4's stability region.
 
-Linearised about rest at uniform rho and e, with p = P/rho^2, S(k) = sum_r grad w sin k.r, D(k) = sum_r (grad
-grad w) (1 - cos k.r), waves exp(ik.r) of displacement u, velocity v and energy e' obey
+On a square lattice at rest, at uniform rho and e, small waves exp(ik.r) of displacement u, velocity v and
+energy e' obey, with p = P/rho^2, S(k) = sum_r grad w sin k.r, D(k) = sum_r (grad grad w) (1 - cos k.r),
 
     rho' = i m S.u                                   p' = P'/rho^2 - 2 P rho'/rho^3
     du/dt = v    dv/dt = i m S p' - 2 m p D u - (eta/rho) k2 v    de'/dt = i m p S.v - (k/rho) k2 T'
 
-where k2 stands for the wave number squared: |m S/rho|^2 in nested sums, (2 m/rho) sum_r (-w'/r)(1 - cos k.r)
-in direct ones. Sound is in S, the stiffness of pairs in D. Walls and gravity are left out. Particles off the
-lattice oscillate faster: by 1 (Wendland C2) to 21 % (B-spline) once settled, by up to 40 % at random.
+where k2 replaces the squared wave number: |m S/rho|^2 in `Nested` sums, (2 m/rho) sum_r (-w'/r)(1 - cos k.r)
+in `Direct` ones. S gives sound, D the stiffness of pairs. Walls and gravity are neglected. Particles off the
+lattice oscillate faster: by 1 (Wendland C2) to 21 % (B-spline) once settled, by up to 40 % at random places.
 """
 from collections.abc import Callable
 from functools import cache, singledispatch
@@ -23,13 +23,13 @@ from particles.smooth.spam import Spam
 from particles.threads import Threads
 from particles.weights import value_and_slope
 
-TRIALS = 40         # evaluations of rates, of a method without a formula
-TINY = 1e-7         # of a state: what a rate is told from
-STEP = 1e-3         # of fields of order 1: STEP^4 = 1e-12 of fifth derivatives, round-off 1e-13
+TRIALS = 40         # evaluations of the rates of a method without a formula
+TINY = 1e-7         # relative change of a state in a difference quotient of its rates
+STEP = 1e-3         # in fields of order 1: errors are STEP^4 = 1e-12 of fifth derivatives, round-off 1e-13
 
 
 class Symbols(NamedTuple):
-    """Sums: density, and over wave vectors S (k, 2), D (k, 2, 2), k2 of nested and of direct sums (k,)."""
+    """Lattice sums: density; at wave vectors S (k, 2), D (k, 2, 2), k2 of `Nested` and `Direct` sums (k,)."""
     rho: float
     S: np.ndarray
     D: np.ndarray
@@ -39,10 +39,10 @@ class Symbols(NamedTuple):
 
 @singledispatch
 def limit_of(method: Any, start: np.ndarray) -> float:
-    """The largest stable step from a start (fields, n).
+    """The largest stable time step of a method at a start (fields, n).
 
-    By a formula registered for this kind of method, else by its own `limit(start)`, else, of RK4, from its
-    rates. Raises TypeError: it has another integrator than RK4 and no `limit`.
+    From the formula registered for this type of method, else from its own `limit(start)`, else from its rates
+    for RK4. Raises TypeError: the integrator is not RK4 and the method has no `limit`.
     """
     if hasattr(method, "limit"):
         return float(method.limit(start))
@@ -58,7 +58,7 @@ def _(method: Spam, start: np.ndarray) -> float:
 
 
 def by_trial(method: Any, start: np.ndarray) -> np.ndarray:
-    """Estimates of the outermost eigenvalues of d(rates)/d(state) at a start: the largest within some 2 %.
+    """Estimate the outermost eigenvalues of d(rates)/d(state) at a start, the largest within some 2 %.
 
     Raises ValueError: rates of one state differ between two calls.
     """
@@ -73,7 +73,7 @@ def by_trial(method: Any, start: np.ndarray) -> np.ndarray:
 
 
 def outermost(product: Callable[[np.ndarray], np.ndarray], shape: tuple, trials: int = TRIALS) -> np.ndarray:
-    """Estimates of outer eigenvalues of a matrix from its products with waves    [Arnoldi 1951]"""
+    """Estimate the outermost eigenvalues of a matrix from its products with vectors    [Arnoldi 1951]"""
     pushed, waves, H = np.random.default_rng(1).standard_normal(shape), [], np.zeros((trials + 1, trials))
     for k in range(trials):
         waves.append(pushed/np.linalg.norm(pushed))
@@ -88,7 +88,7 @@ def outermost(product: Callable[[np.ndarray], np.ndarray], shape: tuple, trials:
 
 
 def rates_of(sums: Any, state: np.ndarray) -> np.ndarray:
-    """d(state)/dt. FloatingPointError: it is not finite."""
+    """d(state)/dt. Raises FloatingPointError: it is not finite."""
     out = np.full_like(state, np.nan)
     sums.rates(state, out)
     if not np.isfinite(out).all():
@@ -100,8 +100,8 @@ def rates_of(sums: Any, state: np.ndarray) -> np.ndarray:
 
 def jacobian(rates: Callable[[np.ndarray, np.ndarray], None], state: np.ndarray,
              points: Any = slice(None)) -> np.ndarray:
-    """d rates/d state of a state (fields, n) by differences of fourth order, at the columns of `points` only:
-    (size, columns). rates(state, out) writes the rates to `out`."""
+    """d rates/d state at a state (fields, n) by differences of fourth order, (size, columns), with columns of
+    `points` only. rates(state, out) writes the rates to `out`."""
     numbers = np.arange(state.size).reshape(state.shape)[:, points].ravel()
     J, out = np.zeros((state.size, len(numbers))), np.empty(state.shape)
     for column, number in enumerate(numbers):
@@ -114,19 +114,19 @@ def jacobian(rates: Callable[[np.ndarray, np.ndarray], None], state: np.ndarray,
 
 
 def step_limit(method: Spam, e: Any, rho: float = 1.0) -> float:
-    """The largest dt at which RK4 makes no lattice wave grow. ValueError: (rho, e) is outside of the eos."""
+    """The largest dt at which no lattice wave grows in RK4. Raises ValueError: the eos excludes (rho, e)."""
     check_state(method.eos, rho, e)
     symbols = lattice_sums(method.weight, method.m, rho, zone(np.sqrt(method.m/rho)))
     return min(largest_step(waves(method, symbols, float(extreme))) for extreme in {np.min(e), np.max(e)})
 
 
 def zone(a: float, points: int = 33) -> np.ndarray:
-    """Wave vectors (k, 2) of an eighth of the zone of a square lattice; symmetry gives the rest."""
+    """Wave vectors (k, 2) in an eighth of the Brillouin zone of a square lattice; symmetry gives the rest."""
     return np.array([(i, j) for i in range(points) for j in range(i + 1)])*np.pi/a/(points - 1)
 
 
 def lattice_sums(weight: Any, m: float, rho: float, k: np.ndarray) -> Symbols:
-    """Sums over the square lattice at wave vectors (k, 2). ValueError: the weight reaches no particle."""
+    """Sums over the square lattice at wave vectors (k, 2). Raises ValueError: no neighbour is in range."""
     a = np.sqrt(m/rho)
     x = a*np.arange(-int(weight.h/a) - 1, int(weight.h/a) + 2)
     x, y = (q.ravel() for q in np.meshgrid(x, x))
@@ -145,21 +145,21 @@ def lattice_sums(weight: Any, m: float, rho: float, k: np.ndarray) -> Symbols:
 
 
 def _derivatives(weight, r: float) -> tuple[float, float, float]:
-    """w, w'/r and w'' at r; w'' by a central difference, good to 1e-9."""
+    """w, w'/r and w'' at r; w'' by a central difference, accurate to 1e-9."""
     step = 1e-5*weight.h
     after, before = ((r + d)*value_and_slope(weight, r + d)[1] for d in (step, -step))
     return *value_and_slope(weight, r), (after - before)/(2*step)
 
 
 def waves(method: Spam, symbols: Symbols, e: float) -> np.ndarray:
-    """Eigenvalues of the linearised method, (k, 5): exp(lambda t)."""
+    """Eigenvalues lambda of the linearised method, (k, 5); waves vary as exp(lambda t)."""
     rho, S, D, *_ = symbols
     k2 = symbols._asdict()[method.transport.symbol]
     eos, m, T = method.eos, method.m, temperature(method.eos, symbols.rho, e)
     P, (P_rho, P_e), d = pressure(eos, rho, e), pressure_slopes(eos, rho, e), 1e-6
     T_rho = (temperature(eos, rho + d, e) - temperature(eos, rho - d, e))/(2*d)
     T_e = (temperature(eos, rho, e + d) - temperature(eos, rho, e - d))/(2*d)
-    # `LessStatic` leaves out what is there at the height whose static pressure is nearest to P
+    # `LessStatic` subtracts the static pressure of a height, here of the one where it is nearest to P
     static, half = method.static, method.static.rho0*method.g*method.box[1]/2
     less = P - static.fraction*float(np.clip(P, static.P0 - abs(half), static.P0 + abs(half)))
     nu, chi = viscosity(method.law, rho, T)/rho, conductivity(method.law, rho, T)/rho
@@ -174,7 +174,7 @@ def waves(method: Spam, symbols: Symbols, e: float) -> np.ndarray:
 
 
 def largest_step(eigenvalues: np.ndarray) -> float:
-    """The step that brings the first eigenvalue to the edge of RK4's region; growth counts as neutral."""
+    """The step at which a first eigenvalue leaves RK4's stability region; growing waves count as neutral."""
     decay, omega = np.maximum(-eigenvalues.real, 0), np.abs(eigenvalues.imag)
     size = np.hypot(decay, omega)
     return float(np.min(np.interp(np.arctan2(decay, omega), *_edge())/np.maximum(size, 1e-300)))
@@ -182,7 +182,7 @@ def largest_step(eigenvalues: np.ndarray) -> float:
 
 @cache
 def _edge() -> tuple[np.ndarray, np.ndarray]:
-    """RK4's stability region: angles from the imaginary to the negative real axis, |lambda dt| there."""
+    """Edge of RK4's stability region: angles from imaginary to negative real axis, and |lambda dt|."""
     angle, r = np.linspace(0, np.pi/2, 181), np.arange(1, 3200)*0.001
     z = 1j*r*np.exp(1j*angle[:, None])
     growth = abs(1 + z + z**2/2 + z**3/6 + z**4/24)

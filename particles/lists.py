@@ -1,6 +1,6 @@
-"""What the pair loops need besides particles: fixed ones, ghosts of the walls, lists, pairs.
+"""Data that pair loops need besides the particles: fixed particles, ghosts of walls, neighbour lists, pairs.
 
-Points are numbered particles first, then fixed particles, then ghosts wall by wall, which have no rows.
+The order of points is particles, fixed particles, ghosts wall by wall. Ghosts have no rows in pair sums.
 """
 from typing import Any, NamedTuple
 
@@ -16,8 +16,8 @@ from particles.walls.mirror import Mirror
 from particles.walls.periodic import wrap
 
 EMPTY = np.empty(0)
-ROUND_OFF = 1e-12       # of places: that of some thousand operations
-MARGIN = 1.25  # a particle may speed up within a step by this factor before the lists miss a pair
+ROUND_OFF = 1e-12       # relative, of places after some thousand operations
+MARGIN = 1.25  # factor by which a particle may speed up within a step before the lists miss a pair
 
 
 def fastest(state: np.ndarray) -> float:
@@ -26,7 +26,7 @@ def fastest(state: np.ndarray) -> float:
 
 
 def outside(walls: tuple, state: np.ndarray, box: tuple[float, float]) -> np.ndarray:
-    """Numbers of the particles that walls would reflect, or that are more than a box beyond the box."""
+    """Indices of particles behind a reflecting wall, or farther than the box's own size outside the box."""
     inside = state.copy()
     for wall in walls:
         confine(wall, inside)
@@ -35,7 +35,7 @@ def outside(walls: tuple, state: np.ndarray, box: tuple[float, float]) -> np.nda
 
 
 def check_room(weight: Any, walls: tuple, box: tuple[float, float]) -> None:
-    """Refuse a box that is none, a weight that is too wide for it, and walls of another one: ValueError."""
+    """Check the box, that twice the weight's range fits into it, and its walls. Raises ValueError."""
     if len(box) != 2 or not all(0 < side < np.inf for side in box):
         raise ValueError(f"a box is (width, height), both positive and finite, got {box}")
     if 2*weight.h > min(box):
@@ -45,11 +45,11 @@ def check_room(weight: Any, walls: tuple, box: tuple[float, float]) -> None:
 
 
 class PairLists:
-    """Fixed particles, ghosts, neighbour lists and pairs of N particles between walls.
+    """Fixed particles, ghosts, neighbour lists and pairs of n particles between walls.
 
-    x, y, vx, vy, T, rho, P : (points,) fields of all points; of the particles written by the method.
-    pairs : lists and pairs in range of the `rows` particles and fixed particles.
-    blocks : (wall, parents, first, last) of the ghosts, in the order in which they are filled.
+    x, y, vx, vy, T, rho, P : (points,) fields of all points; the method writes those of the particles.
+    pairs : neighbour lists and pairs in range of the particles and fixed particles, `rows` in all.
+    blocks : (wall, parents, first, last) of the ghosts of each wall, in the order in which they are filled.
     """
 
     def __init__(self, weight, walls, n: int, box: tuple[float, float], *, skin: float, threads: Threads):
@@ -65,16 +65,16 @@ class PairLists:
         self.pairs, self.lists_made = empty_pairs(self.rows, 0), 0
 
     def must_relist(self, state: np.ndarray, dt: float) -> bool:
-        """True if some particle may leave half of the skin within the coming step."""
+        """True if some particle may have moved farther than half of the skin after the coming step."""
         return self.anchor is None or self.moved(state) + MARGIN*fastest(state)*dt > self.skin/2
 
     def moved(self, state: np.ndarray) -> float:
-        """The farthest that any particle has moved since the lists were made."""
+        """Largest displacement of a particle since the lists were made."""
         assert self.anchor is not None, "lists come before steps"
         return farthest(state[:2], self.anchor)
 
     def relist(self, state: np.ndarray, ids: np.ndarray, dt: float) -> None:
-        """Wrap the particles, sort them by cells (in place), make lists; the skin grows with the speed."""
+        """Wrap and sort the particles in place, then make lists, with a wider skin if particles are fast."""
         stride = MARGIN*fastest(state)*dt
         if not stride < self.weight.h:
             raise FloatingPointError(f"a particle at speed {fastest(state):.4g} would cross the weight's "
@@ -91,7 +91,7 @@ class PairLists:
         return self.weight.h + self.skin
 
     def make_lists(self, anchor: np.ndarray) -> None:
-        """Ghosts and lists for particles at `anchor` (2, n), which a restart takes from its checkpoint."""
+        """Make ghosts and lists for particles at `anchor` (2, n), which a restart reads from a checkpoint."""
         self.anchor, self.lists_made = anchor.copy(), self.lists_made + 1
         x, y = (np.concatenate([a, f]) for a, f in zip(anchor, self._fixed, strict=False))
         self.blocks = []
@@ -110,7 +110,7 @@ class PairLists:
         self.pairs = pairs._replace(start=start, length=length, listed=listed)
 
     def place(self, state: np.ndarray, m: float) -> None:
-        """Positions of all points and, over the pairs in range, density of the rows and of their images."""
+        """Set positions of all points, find pairs in range, and sum the density of rows; images copy it."""
         self.x[:self.n], self.y[:self.n] = state[0], state[1]
         for wall, parent, first, last in self.blocks:
             place_images(first, last, wall, parent, self.x, self.y)
@@ -119,31 +119,31 @@ class PairLists:
             self.rho[first:last] = self.rho[parent]
 
     def move(self) -> None:
-        """Velocities and temperatures of the images from those of their parents."""
+        """Set velocities and temperatures of images from those of their parents."""
         for wall, parent, first, last in self.blocks:
             move_images(first, last, wall, parent, self.x, self.y, self.vx, self.vy, self.T)
 
 
 class Ghosts(NamedTuple):
-    """Of each ghost: its origin, -1 behind an odd number of plates (else 1), the last plate's T."""
+    """Index of each ghost's origin; -1 behind an odd number of plates, else 1; T of the last plate."""
     origin: np.ndarray
     turn: np.ndarray
     plate_T: np.ndarray
 
     def fill(self, records: np.ndarray, even: tuple[str, ...], odd: tuple[str, ...] = ()) -> None:
-        """Fields of ghosts, which come last, from their origins; odd ones change sign in a mirror."""
+        """Copy fields from origins to ghosts, the last records; `odd` ones change sign in a mirror."""
         first = len(records) - len(self.origin)
         for name in (*even, *odd):
             found = records[name][self.origin]
             records[name][first:] = found*self.turn if name in odd else found
 
     def fill_work(self, points: np.ndarray, slopes: np.ndarray, V: np.ndarray) -> None:
-        """The work F of ghosts: along a plate even, across it odd."""
+        """Copy F, the energy flux by work, to ghosts: Fx, along plates, is even, Fy, across them, odd."""
         self.fill(points, ("Fx",), ("Fy",))
 
 
 def ghosts_of(around: PairLists) -> Ghosts:
-    """The ghosts that the lists have now; mirrors are the only walls that turn anything."""
+    """The ghosts of the present lists; `Mirror` is the only wall that changes signs."""
     origin, turn, plate_T = np.arange(len(around.x)), np.ones(len(around.x)), np.zeros(len(around.x))
     for wall, parent, first, last in around.blocks:
         for q in (origin, turn, plate_T):
@@ -155,7 +155,7 @@ def ghosts_of(around: PairLists) -> Ghosts:
 
 
 def unphysical(eos: Any, V: np.ndarray, rho: np.ndarray, e: np.ndarray, ids: np.ndarray) -> str:
-    """The first point with a volume, density or energy that no fluid has; empty if there is none."""
+    """Message on the first point whose volume, density or energy is not valid; empty if all are valid."""
     good = (V > 0) & (rho > 0) & valid(eos, rho, e)
     if good.all():
         return ""
@@ -165,7 +165,7 @@ def unphysical(eos: Any, V: np.ndarray, rho: np.ndarray, e: np.ndarray, ids: np.
 
 
 class Listed(Sums):
-    """What the time loop asks of sums over neighbour lists, whatever is summed."""
+    """Base class of sums over neighbour lists: what the time loop calls, whatever is summed."""
     around: PairLists
 
     def evaluate(self, state: np.ndarray) -> None:
@@ -177,7 +177,7 @@ class Listed(Sums):
             self.around.make_lists(now.anchor)
 
     def try_out(self, now: Any) -> None:
-        """One evaluation on a copy of the particles; at a start they are looked over."""
+        """Evaluate once on a copy of the particles; at a start, check them by `look_over`."""
         state, fresh = now.state.copy(), now.anchor is None
         if fresh:
             ids = now.ids.copy()
@@ -188,10 +188,10 @@ class Listed(Sums):
             self.around.anchor = None       # lists are made anew before the first step
 
     def look_over(self, state: np.ndarray, ids: np.ndarray) -> None:
-        """Refuse points that the sums would take without a word, once at the start; here none."""
+        """Check points at the start for faults that the sums would not notice; does nothing here."""
 
     def make_ready(self, now: Any, dt: float) -> None:
-        """New lists if particles may leave the old ones within the step; particles are then sorted."""
+        """Sort particles and make new lists if the step may bring a particle beyond the skin."""
         if self.around.must_relist(now.state, dt):
             self.around.relist(now.state, now.ids, dt)
             now.anchor, now.skin = self.around.anchor, self.around.skin
@@ -200,6 +200,6 @@ class Listed(Sums):
         return sum(confine(wall, state) for wall in self.method.walls)
 
     def outran(self, state: np.ndarray) -> str:
-        """What is wrong if a particle has left the skin of the lists; empty if none has."""
+        """Message if a particle has moved farther than half of the skin; empty if none has."""
         far = self.around.moved(state) > self.around.skin/2
         return "a particle sped up by more than a quarter within one step" if far else ""

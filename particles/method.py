@@ -1,9 +1,9 @@
-"""The contract of a method, and the parts of it that a method of one's own inherits.
+"""The interface of a method, and base classes for a method of one's own.
 
-A method is made for a scene and does not change; `start` gives its sums, which a run steps. The smallest one
-inherits `LatticeRates` and has `rates`. One with other states or places inherits `OwnRates`, takes a scene,
-and has `names`, `state`, `fields`, `rates`; a code with steps of its own inherits `Stepping` and has
-`advance` and `limit` in place of `rates`. Units are the scene's: lengths in spacings, mean density 1.
+A method is made for a scene and does not change; its `start` makes the sums that a run steps. The smallest
+inherits `LatticeRates` and writes `rates`. One with another state or other places inherits `OwnRates`, takes
+a scene, and writes `names`, `state`, `fields`, `rates`. A code with own time steps inherits `Stepping` and
+writes `advance`, `limit` in place of `rates`. Units are the scene's: lengths in spacings, mean density 1.
 """
 from functools import cached_property
 from typing import Any, ClassVar, Protocol, runtime_checkable
@@ -19,13 +19,13 @@ from particles.threads import Threads
 
 @runtime_checkable
 class Method(Protocol):
-    """What a run asks of a method.
+    """Interface of a method, as a run uses it.
 
     eos : equation of state. names : of the rows of a state. Optional: integrator(shape, threads) with
     `step(sums, state, dt)`, RK4 by default; box and walls of points that move; limit(start), the longest
-    stable step, which is found by trial where neither it nor a formula is there (`particles.limits`);
-    state(rho, v, T), (rows, n) of density (n,), velocity (n, 2), temperature (n,) at the method's own places
-    `x` (n, 2), or state(x, rho, v, T) of a method without `x`, for `studies.build.ready`.
+    stable step, which `particles.limits` takes from a formula or finds by trial if there is no such method;
+    state(rho, v, T), the state (rows, n) from density (n,), velocity (n, 2), temperature (n,) at the method's
+    places `x` (n, 2), or state(x, rho, v, T) of a method without `x`; `studies.build.ready` needs it.
     """
     eos: Any
     names: Any
@@ -34,12 +34,12 @@ class Method(Protocol):
         """Places (m, 2), velocities (m, 2), density, temperature, volume (m,) of a state (rows, n)."""
 
     def start(self, n: int, threads: Threads) -> Any:
-        """Sums for a state of n points. Raises ValueError: it cannot take so many."""
+        """Make the sums for a state of n points. Raises ValueError: the method cannot have n points."""
 
 
 @runtime_checkable
 class Sums(Protocol):
-    """What a run and its integrator ask of the sums of a method; points that stay write `rates` alone."""
+    """Interface of a method's sums, as a run and its integrator use it; staying points need only `rates`."""
     method: Any
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
@@ -48,32 +48,32 @@ class Sums(Protocol):
                         "into out, or inherit Stepping")
 
     def look_at(self, state: np.ndarray) -> Any:
-        """Called before series of a run read a state."""
+        """Prepare the sums for a state, before series and means of a run read it."""
         return None
 
     def resume(self, now: Any) -> None:
-        """Be as an interrupted run `now` (`particles.plan.Run`) was; called once, before all else."""
+        """Restore what an interrupted run `now` (`particles.plan.Run`) had; called once, before all else."""
         return None
 
     def try_out(self, now: Any) -> None:
-        """Load or compile all code, and leave no trace in the run. ValueError: it starts wrongly."""
+        """Load or compile all code without changing the run. Raises ValueError: the start is not valid."""
         self.rates(now.state, np.empty_like(now.state))
 
     def make_ready(self, now: Any, dt: float) -> None:
-        """Called before a step; may sort `now.state` and `now.ids`. FloatingPointError: it cannot go on."""
+        """Prepare a step; may sort `now.state`, `now.ids`. Raises FloatingPointError: no step is possible."""
         return None
 
     def mark(self, now: Any) -> None:
-        """Put into a run what a restart needs besides its state, before it is saved."""
+        """Store in a run what a restart needs besides its state, before a checkpoint is written."""
         return None
 
     def confine(self, state: np.ndarray) -> int:
-        """Bring back what has left through walls, after a step; the number of reflections."""
+        """Reflect points that have crossed walls in a step. Returns the number of reflections."""
         return 0
 
     def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
-        """What is wrong with a finite state after a step; here a density or temperature that is not positive,
-        nan being none at all. Empty if nothing is."""
+        """Message on what is wrong with a state after a step; empty if nothing is. Here density and
+        temperature must be positive; nan, of a method without such a field, passes."""
         at = self.method.fields(state)
         bad = np.flatnonzero((at.rho <= 0) | (at.T <= 0))
         if not len(bad):
@@ -83,7 +83,7 @@ class Sums(Protocol):
 
 
 class OwnRates(Sums):
-    """A method of one's own that is its own sums: inherit it, write `names`, `state`, `fields`, `rates`."""
+    """Base class of a method that is its own sums. Subclasses write `names`, `state`, `fields`, `rates`."""
     names: Any
 
     def __init__(self, scene: Any):
@@ -94,16 +94,16 @@ class OwnRates(Sums):
 
 
 class LatticeRates(OwnRates):
-    """Mass, momentum and energy per volume on a lattice of unit spacing: inherit it, write `rates`."""
+    """Method with mass, momentum, energy per volume on a unit lattice. Subclasses write `rates`."""
     names = ("rho", "px", "py", "eps")
 
     @cached_property
     def x(self) -> np.ndarray:
-        """Places (n, 2), row by row along y, x by x."""
+        """Places (n, 2), ordered by x, then by y: y varies fastest."""
         return lattice((round(self.scene.width), round(self.scene.L))).x
 
     def state(self, rho: np.ndarray, v: np.ndarray, T: np.ndarray) -> np.ndarray:
-        """(4, n) of fields at `x`."""
+        """State (4, n) from fields at `x`."""
         return densities(self.eos, rho, v, T)
 
     def fields(self, state: np.ndarray) -> Fields:
@@ -112,14 +112,14 @@ class LatticeRates(OwnRates):
 
 
 class Leaps:
-    """The steps of a code that has its own, as many at once as there are between two records, or `most`."""
+    """Integrator of a code with its own time steps: all steps to the next record at once, or `most`."""
     most = 10**9
 
     def __init__(self, shape: tuple[int, ...], threads: Threads):
         self.shape = shape
 
     def step(self, sums: Any, state: np.ndarray, dt: float, steps: int = 1) -> None:
-        """Advance a state in place. ValueError: what comes back is none."""
+        """Advance a state in place. Raises ValueError: `advance` returns another shape."""
         later = np.asarray(sums.method.advance(state, dt, steps), float)
         if later.shape != self.shape:
             raise ValueError(f"advance of {type(sums.method).__name__} gave an array {later.shape} for a "
@@ -128,15 +128,15 @@ class Leaps:
 
 
 class Stepping(OwnRates):
-    """A method with steps of its own: inherit it, write `names`, `state`, `fields`, `advance`, `limit`."""
+    """Method with its own time steps. Subclasses write `names`, `state`, `fields`, `advance`, `limit`."""
     integrator: ClassVar[type] = Leaps
 
     def advance(self, state: np.ndarray, dt: float, steps: int) -> np.ndarray:
-        """The state (rows, n) so many steps of dt later; it may be changed in place."""
+        """The state (rows, n) after `steps` steps of dt; may change `state` in place."""
         raise TypeError(f"{type(self).__name__} has no advance(state, dt, steps)")
 
     def limit(self, start: np.ndarray) -> float:
         raise TypeError(f"{type(self).__name__} has no limit(start)")
 
     def try_out(self, now: Any) -> None:
-        """Nothing."""
+        """Do nothing."""

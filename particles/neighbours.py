@@ -1,7 +1,7 @@
-"""Cell order, linked cells and a Verlet list with skin: who may be near whom.
+"""Neighbour search: cell order, linked cells, and Verlet lists with a skin.
 
-The list of row i holds all points within `reach` = range + skin of it, in both directions: each row of a pair
-sum is written by one thread. Indices are unsigned: signed ones cost numba three instructions at every use.
+The list of row i holds all points within `reach` = range + skin of it. Each pair is in two lists, so that one
+thread writes a row of a sum. Indices are unsigned: a signed one costs numba three instructions at every use.
 """
 from typing import NamedTuple
 
@@ -16,7 +16,7 @@ NOTHING = np.empty(0, u32)
 
 
 class Cells(NamedTuple):
-    """Points sorted into square cells: cell c holds order[start[c]:start[c+1]], at x, y."""
+    """Points sorted into square cells. Cell c holds order[start[c]:start[c+1]]; x, y are in this order."""
     left: float
     bottom: float
     side: float
@@ -30,7 +30,7 @@ class Cells(NamedTuple):
 
 @jit
 def counting_sort(cell, start, order):
-    """Points by cell, stable: order[start[c]:start[c + 1]] are in cell c; `start` (cells + 1,) zeros."""
+    """Stable sort by cell: cell c has order[start[c]:start[c + 1]]. Initial `start`: zeros (cells + 1,)."""
     for i in range(len(cell)):
         start[cell[i] + 1] += 1
     for c in range(len(start) - 1):
@@ -43,7 +43,7 @@ def counting_sort(cell, start, order):
 
 @jit
 def _sort(x, y, left, bottom, side, columns, start, order):
-    """Points by cell, row by row."""
+    """Sort points by cell; cells are numbered row by row."""
     cell = np.empty(len(x), np.int64)
     for i in range(len(x)):
         cell[i] = int((y[i] - bottom)/side)*columns + int((x[i] - left)/side)
@@ -51,7 +51,7 @@ def _sort(x, y, left, bottom, side, columns, start, order):
 
 
 def sort_into_cells(x: np.ndarray, y: np.ndarray, side: float) -> Cells:
-    """Linked cells [KHP95, Ref. 13] around the points (N,), two empty cells around them."""
+    """Linked cells [KHP95, Ref. 13] of points (N,), with a margin of two empty cells."""
     left, bottom = float(x.min()) - 2*side, float(y.min()) - 2*side
     across, up = ((float(q.max()) - low)/side + 4 for q, low in ((x, left), (y, bottom)))
     if not across*up <= 64*len(x) + 4096:
@@ -66,7 +66,7 @@ def sort_into_cells(x: np.ndarray, y: np.ndarray, side: float) -> Cells:
 
 @jit
 def _gather(cells, home, ring, x, y, j):
-    """Copy the points in the square of cells around `home` one behind the other; their number."""
+    """Copy the points of the square of cells around `home` into x, y, j. Returns their number."""
     count = u64(0)
     for row in range(-ring, ring + 1):
         first = home + row*cells.columns
@@ -78,17 +78,17 @@ def _gather(cells, home, ring, x, y, j):
 
 @jit
 def list_rows(first, last, cells, x, y, reach, itself, capacity, start, length, listed):
-    """Write the Verlet lists of rows first..last from first*capacity on; False if they do not fit.
+    """Write the Verlet lists of rows first..last from first*capacity on. Returns False if they do not fit.
 
-    Row i is the listed point i + `itself`, which is left out. Rows of one cell share what is gathered around
-    it; comparing all of that before the list is compressed leaves LLVM a loop for vector instructions.
+    Row i leaves out the point i + `itself`, which is its own. Rows of one cell share the points gathered
+    around it. All of these are compared before the list is compressed, in a loop that LLVM can vectorise.
     """
     ring = int(np.ceil(reach/cells.side))
     most = (2*ring + 1)**2*np.diff(cells.start).max()
     near_x, near_y, near, close = np.empty(most), np.empty(most), np.empty(most, u32), np.empty(most, u32)
     far2, used, end_of_room, home, count = reach*reach, u64(first*capacity), u64(last*capacity), -1, u64(0)
     for i in range(u64(first), u64(last)):
-        # a place that is outside of all cells looks into the nearest ones
+        # a place outside all cells searches the nearest ones
         cx = min(max(int((x[i] - cells.left)/cells.side), 2), cells.columns - 3)
         cy = min(max(int((y[i] - cells.bottom)/cells.side), 2), cells.rows - 3)
         if cy*cells.columns + cx != home:
@@ -110,9 +110,9 @@ def list_rows(first, last, cells, x, y, reach, itself, capacity, start, length, 
 
 def make_lists(threads: Threads, cells: Cells, x: np.ndarray, y: np.ndarray, reach: float, itself: int,
                listed: np.ndarray = NOTHING) -> tuple:
-    """(start, length, listed) of points within `reach` of (x, y), but for point i + `itself` of row i.
+    """Lists (start, length, listed) of points within `reach` of (x, y); row i leaves out point i + `itself`.
 
-    `listed` of earlier lists is used again where it has room. FloatingPointError: more than 2000 of each.
+    Reuses the memory of `listed` if it is large enough. Raises FloatingPointError: over 2000 neighbours each.
     """
     occupied = max(int(np.count_nonzero(np.diff(cells.start))), 1)
     density = len(cells.x)/occupied/cells.side**2
@@ -130,7 +130,7 @@ def make_lists(threads: Threads, cells: Cells, x: np.ndarray, y: np.ndarray, rea
 
 @jit
 def farthest(x, anchor):
-    """Largest distance of a point from where it was when the lists were made; coordinates (d, n)."""
+    """Largest displacement of a point since the lists were made at `anchor`; coordinates (d, n)."""
     far2 = 0.0
     for i in range(x.shape[1]):
         r2 = 0.0

@@ -1,7 +1,7 @@
-"""What is measured on particles, from up-to-date sums and the state, whose first rows are x, y, vx, vy, e.
+"""Quantities of smooth particles, from up-to-date sums and a state whose first rows are x, y, vx, vy, e.
 
 KHP95 do not say which kinetic energy their figures show, so all three are kept: Kp of the particles, Kg of
-the smoothed field, Kfl = Kp - Kg of their fluctuations.
+the smoothed field, Kfl = Kp - Kg of the fluctuations.
 """
 from typing import Any, NamedTuple
 
@@ -13,7 +13,7 @@ from particles.pairs import Pairs, entries, interpolate, sweep
 
 
 class Smoothed(NamedTuple):
-    """Smoothed density, velocity, energy per mass and temperature at places, in their shape."""
+    """Smoothed density, velocity, energy per mass and temperature at places, as arrays of their shape."""
     rho: np.ndarray
     vx: np.ndarray
     vy: np.ndarray
@@ -36,7 +36,7 @@ def fields_at(sums: Any, state: np.ndarray, x: np.ndarray, y: np.ndarray) -> Smo
 
 
 def shares(sums: Any, state: np.ndarray) -> np.ndarray:
-    """Masses of all points over that of the method."""
+    """Masses of all points over the mass m of the method."""
     out = np.ones(len(sums.around.x))
     out[:sums.n] = sums.shares(state)
     for _, parent, first, last in sums.around.blocks:
@@ -68,16 +68,16 @@ def heat_flow(sums: Any, state: np.ndarray) -> float:
 
 
 class PlateHeat(NamedTuple):
-    """Energy per area and time that particles get from behind a plate: side -1 lower, +1 upper.
+    """Energy per area and time that particles receive through a plate: side -1 lower, +1 upper.
 
-    The part of the third sum that comes from there: heat, viscous work, and the work of pressure if wanted,
-    which is none on resting plates, but for an error of order dt: particles are seen after their turn.
+    The third sum over pairs with points behind the plate: heat, viscous work, and work of pressure if wanted.
+    This work is zero at resting plates, but for an error of order dt, as records follow the reflection.
     """
     side: int
     pressure: bool = False
 
     def __call__(self, sums: Any, state: np.ndarray) -> float:
-        """From densities and gradients that are up to date."""
+        """Energy per area and time; densities and gradients must be up to date."""
         term, records = sums.exchange(sums.less if self.pressure else np.zeros_like(sums.less))
         pull = np.zeros((sums.around.rows, sums.pull.shape[1]))
         sums.threads(sweep, sums.n, term, records, pairs_behind(sums, self.side), pull)
@@ -87,7 +87,7 @@ class PlateHeat(NamedTuple):
 
 
 def pairs_behind(sums: Any, side: int) -> Pairs:
-    """The pairs of fluid particles with what is behind the lower (-1) or upper (+1) plate."""
+    """Pairs of fluid particles with points behind the lower (-1) or upper (+1) plate."""
     around, pairs, half = sums.around, sums.around.pairs, sums.method.box[1]/2
     row, entry = entries(pairs, np.flatnonzero(side*around.y[:sums.n] > half - sums.method.weight.h))
     behind = side*around.y[pairs.near[entry]] > half
@@ -98,13 +98,13 @@ def pairs_behind(sums: Any, side: int) -> Pairs:
 
 
 class Grid(NamedTuple):
-    """Places on a regular grid of cell centres over the box, ready for `Plan.means`: (5, rows, columns)."""
+    """Smoothed fields (5, rows, columns) at the cell centres of a grid over the box, for `Plan.means`."""
     x: np.ndarray
     y: np.ndarray
 
     @classmethod
     def over(cls, box: tuple[float, float], rows: int) -> "Grid":
-        """`rows` places over the height, square cells; KHP95's Fig. 12 has 30 x 60."""
+        """Grid of square cells, `rows` over the height; KHP95's Fig. 12 has 30 x 60."""
         columns = round(rows*box[0]/box[1])
         x, y = ((np.arange(columns) + 0.5)*box[0]/columns - box[0]/2,
                 (np.arange(rows) + 0.5)*box[1]/rows - box[1]/2)

@@ -10,9 +10,10 @@ from particles.weights import shape, slope
 
 
 class Pairs(NamedTuple):
-    """Verlet lists, listed[start[i]:start[i] + length[i]] of row i, and of them the pairs in range.
+    """Verlet lists, and the pairs in range among the listed points.
 
-    The pairs of row i are near, wx, wy [first[i]:first[i] + taken[i]]; (wx, wy) = grad_i m w(r_ij).
+    The list of row i is listed[start[i]:start[i] + length[i]], its pairs are near, wx, wy [first[i]:first[i]
+    + taken[i]]: near = j, (wx, wy) = grad_i m w(r_ij).
     """
     start: np.ndarray
     length: np.ndarray
@@ -25,7 +26,7 @@ class Pairs(NamedTuple):
 
 
 class Stored(NamedTuple):
-    """Edges of fixed points; of row i: near, sx, sy, k [first[i]:first[i] + taken[i]]; (sx, sy) = S_ij/2."""
+    """Edges of fixed points: row i has near, sx, sy, k [first[i]:first[i] + taken[i]]; (sx, sy) = S_ij/2."""
     first: np.ndarray
     taken: np.ndarray
     near: np.ndarray
@@ -35,7 +36,7 @@ class Stored(NamedTuple):
 
 
 class Faces(NamedTuple):
-    """Edges of moving points: `Stored` with (dx, dy) = x_j - x_i besides."""
+    """Edges of moving points: as `Stored`, with (dx, dy) = x_j - x_i in addition."""
     first: np.ndarray
     taken: np.ndarray
     near: np.ndarray
@@ -47,40 +48,40 @@ class Faces(NamedTuple):
 
 
 def empty_pairs(rows: int, entries: int) -> Pairs:
-    """Arrays for lists with so many entries in all."""
+    """Uninitialised arrays for lists of so many entries in all."""
     (start, first), (length, taken) = np.empty((2, rows), u64), np.empty((2, rows), u32)
     listed, near = np.empty((2, entries), u32)
     return Pairs(start, length, listed, first, taken, near, *np.empty((2, entries)))
 
 
 def entries(pairs: Any, rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Row and entry of all pairs of some rows, in their order."""
+    """Row, and index in the pair arrays, of every pair of some rows, in the order of these rows."""
     first, taken = (q[rows].astype(np.int64) for q in (pairs.first, pairs.taken))
     before = np.cumsum(taken) - taken
     return np.repeat(rows, taken), np.repeat(first - before, taken) + np.arange(taken.sum())
 
 
 class Block(NamedTuple):
-    """Sums (rows, columns) of the rows from `begin` on, in place of an array of all rows."""
+    """Output of sums (rows, columns) for the rows from `begin` on, in place of an array of all rows."""
     begin: int
     sums: np.ndarray
 
 
 class Pair(NamedTuple):
-    """What a pair term knows of a pair: the gradient of m w(r_ab) with respect to r_a."""
+    """Geometry of a pair, as a pair term reads it: the gradient of m w(r_ab) with respect to r_a."""
     wx: float
     wy: float
 
 
 class Edge(NamedTuple):
-    """What an exchange knows of an edge: half of its area vector S_ab/2 and its conductance k."""
+    """Geometry of an edge, as a pair term reads it: half of the area vector, S_ab/2, and conductance k."""
     sx: float
     sy: float
     k: float
 
 
 class Face(NamedTuple):
-    """An edge with what leads along it, x_b - x_a."""
+    """Geometry of an `Edge` with the vector along it, (dx, dy) = x_b - x_a."""
     sx: float
     sy: float
     k: float
@@ -90,7 +91,7 @@ class Face(NamedTuple):
 
 @generic
 def pair_at(pairs, k):
-    """The k-th pair as a term wants it."""
+    """Geometry of the k-th pair, as a term reads it."""
 
 
 pair_at.of(Pairs)(lambda pairs, k: Pair(pairs.wx[k], pairs.wy[k]))
@@ -102,8 +103,8 @@ pair_at.of(Faces)(lambda pairs, k: Face(pairs.sx[k], pairs.sy[k], pairs.k[k], pa
 def weigh(first, last, weight, m, x, y, pairs, rho):
     """rho_i = sum_j m w(r_ij), the particle itself included, and grad_i m w(r_ij), for rows first..last.
 
-    The list is compressed without a branch, which would be mispredicted for one entry in three; the square
-    roots follow in a loop of their own over what is left, which LLVM turns into vector instructions.
+    The list is compressed without a branch, which would be mispredicted for one entry in three. The square
+    roots follow in a loop of their own over the pairs in range, which LLVM vectorises.
     """
     h2, per_h, per_slope = weight.h*weight.h, 1/weight.h, m*weight.scale/weight.h**2
     begin = pairs.start[first] if first < last else u64(0)
@@ -127,7 +128,7 @@ def weigh(first, last, weight, m, x, y, pairs, rho):
 
 @generic
 def rate(term, a, b, ab):
-    """What the pair (a, b) adds to the sum of a: a tuple of numbers, from two records and their Pair."""
+    """Contribution of the pair (a, b) to the sum of a, a tuple, from both records and the pair's geometry."""
 
 
 @generic
@@ -136,10 +137,10 @@ def zero(term):
 
 
 def pair_term(kind: type, columns: int) -> Callable:
-    """Makes a formula the `rate` of a kind of term, whose sums have so many columns.
+    """Decorator that makes a formula the `rate` of a type of term, whose sums have so many columns.
 
-    rate(term, a, b, ab) is what `a` gains. Points over edges have rho, vx, vy, T, P, eps, eta, k, and seen by
-    friction and heat ux, uy, Td; ab is an `Edge`. Columns are mass, momentum (2), energy.
+    rate(term, a, b, ab) is the gain of `a`. On edges, ab is an `Edge`, points have rho, vx, vy, T, P, eps,
+    eta, k, and ux, uy, Td as friction and heat see them; columns are mass, momentum (2), energy.
     """
     empty = (0.0,)*columns
     zero.of(kind)(lambda term: empty)
@@ -147,7 +148,7 @@ def pair_term(kind: type, columns: int) -> Callable:
 
 
 def add(one: tuple, other: tuple) -> Any:
-    """Element by element."""
+    """Sum of two tuples, element by element."""
 
 
 def store(out: np.ndarray, i: int, k: int, values: tuple) -> Any:
@@ -178,7 +179,7 @@ def _(out, i, k, values):
 
 @jit_records
 def sweep(first, last, term, particle, pairs, out):
-    """out[i] = sum of rate(term, i, j, ij) over the pairs of rows first..last; `particle`: records."""
+    """out[i] = sum_j rate(term, i, j, ij) over the pairs of each row, first..last; `particle`: records."""
     for i in range(u64(first), u64(last)):
         a, total, begin = particle[i], zero(term), pairs.first[i]
         for k in range(begin, begin + pairs.taken[i]):

@@ -17,12 +17,12 @@ from particles.method import Leaps
 from particles.plan import Plan, Run
 from particles.threads import Threads
 
-#: of the step limit: what is stable where moving particles lie at random, what the studies take
+#: fractions of the step limit: stable for moving particles at random places; used by the studies
 RANDOM, STUDIES = 1/1.4, 0.22
 
 
 class Divergence(FloatingPointError):
-    """The run left the domain of finite, valid states at `step`."""
+    """The state of a run was not finite or not valid any more at `step`."""
     step: int
 
     def __init__(self, step: int, message: str):
@@ -31,7 +31,7 @@ class Divergence(FloatingPointError):
 
 
 class Interrupt:
-    """Ctrl-C, which waits for the end of a step so that what is kept is whole; pressed again, it does not."""
+    """Delay Ctrl-C to the end of a step, so that the checkpoint is complete; a second Ctrl-C acts at once."""
     times = 0
 
     def __enter__(self) -> "Interrupt":
@@ -50,10 +50,10 @@ class Interrupt:
 
 
 def run(method: Any, start: ArrayLike, plan: Plan, progress: Callable[[float], None] | None = None) -> Run:
-    """Advance `start`, array-like (fields, n), by the plan; `progress` gets the fraction done.
+    """Advance `start`, array-like (fields, n), by the plan; `progress` is called with the fraction done.
 
     Raises ValueError: the step is above the stability limit, the start is invalid, or the checkpoint is of
-    another run. Divergence: a field is not finite or no fluid has it; names step, time, field and particle.
+    another run. Divergence: a field is not finite or not valid; names step, time, field and particle.
     """
     start = _particles(method, start)
     _check_start(method, start, plan)
@@ -63,7 +63,7 @@ def run(method: Any, start: ArrayLike, plan: Plan, progress: Callable[[float], N
                         getattr(method, "integrator", RK4)(start.shape, threads))
     sums.resume(now)
     before = process_time()
-    sums.try_out(now)       # loads or compiles the code
+    sums.try_out(now)       # loads or compiles all code
     began, saved = process_time(), monotonic()
     now.compile_s += began - before
     with Interrupt() as interrupt:
@@ -146,7 +146,7 @@ def _check_start(method, start: np.ndarray, plan: Plan) -> None:
 
 
 def _limit(method, start: np.ndarray) -> float:
-    """The stability limit; ValueError for a start that has none."""
+    """The stability limit of the time step. Raises ValueError: the start has none."""
     try:
         limit = limit_of(method, start)
     except FloatingPointError as error:
@@ -168,7 +168,7 @@ def _way_out(plan: Plan) -> str:
 
 
 def _check(method, plan: Plan, sums, now: Run) -> None:
-    """Raise Divergence if the state is not finite or not one that the method can go on with."""
+    """Raise Divergence if the state is not finite, or if the method finds a fault in it."""
     finite = np.isfinite(now.state).all()
     fault = sums.fault(now.state, now.ids) if finite else _where(method, now.state, now.ids)
     if fault:

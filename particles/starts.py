@@ -1,4 +1,4 @@
-"""What is wrong with where moving points start, told once before the first step."""
+"""Checks of the places where moving points start, made once before the first step."""
 from typing import Any
 
 import numpy as np
@@ -6,23 +6,23 @@ import numpy as np
 from particles.lists import PairLists, ghosts_of
 from particles.pairs import entries
 
-#: spacings; of the largest stretch of the points around
+#: distance of overlapping points in spacings; least ratio of the eigenvalues of `moments`
 OVERLAP, FLAT = 1e-9, 1e-6
 
 
 def check_volumes(V: np.ndarray) -> None:
-    """Refuse volumes that are none."""
+    """Check that volumes are positive and finite. Raises ValueError."""
     bad = np.flatnonzero(~((V > 0) & (V < np.inf)))
     if len(bad):
         raise ValueError(f"point {bad[0]} has volume {V[bad[0]]:g}: they must be positive and finite")
 
 
 class Overlap(ValueError):
-    """Points lie in one place, as pairing may leave them, too."""
+    """Two points lie in one place, where pairing may bring them, too."""
 
 
 def check_apart(around: PairLists, ids: np.ndarray, a: float) -> None:
-    """Refuse points that lie in one place, where they would stay; a : spacing. After `PairLists.place`."""
+    """Raise Overlap if two points lie in one place, where they would stay; a : spacing. After `place`."""
     i, entry = entries(around.pairs, np.arange(around.n))
     j = around.pairs.near[entry]
     met = np.flatnonzero((around.x[j] - around.x[i])**2 + (around.y[j] - around.y[i])**2 < (OVERLAP*a)**2)
@@ -36,7 +36,7 @@ def check_apart(around: PairLists, ids: np.ndarray, a: float) -> None:
 
 
 def moments(around: PairLists, V: np.ndarray) -> np.ndarray:
-    """sum_j V_j W e (x_j - x_i) of plain quadrature, (n, 2, 2): 1 where linear gradients are exact."""
+    """sum_j V_j W e (x_j - x_i) by quadrature, (n, 2, 2): 1 where gradients of linear fields are exact."""
     V = np.concatenate([V, V[ghosts_of(around).origin]])
     i, entry = entries(around.pairs, np.arange(around.n))
     j = around.pairs.near[entry]
@@ -47,7 +47,7 @@ def moments(around: PairLists, V: np.ndarray) -> np.ndarray:
 
 
 def check_reach(weight: Any, moment: np.ndarray, ids: np.ndarray) -> None:
-    """Refuse points whose neighbours in range do not span the plane: no gradient can be made of them."""
+    """Check that neighbours in range span the plane, which gradients need. Raises ValueError."""
     least, most = np.linalg.eigvalsh(moment).T
     bad = np.flatnonzero(~(least > FLAT*most))
     if len(bad):

@@ -1,6 +1,6 @@
-"""Pair terms: two particles and their geometry in, what the pair adds to the sum of the first one out.
+"""Pair terms of smooth particles: contributions of a pair to the sum of its first particle.
 
-The papers' symbols: a, b are the two particles, (ab.wx, ab.wy) = grad_a m w(r_ab).
+Symbols are those of the papers: a, b are the two particles, (ab.wx, ab.wy) = grad_a m w(r_ab).
 """
 from typing import NamedTuple
 
@@ -18,12 +18,12 @@ class Gradients(NamedTuple):
 
 
 class ArithmeticGradients(NamedTuple):
-    """The same with the arithmetic mean rho_ab = (rho_a + rho_b)/2, the other choice that KHP95 name."""
+    """As `Gradients`, with the arithmetic mean rho_ab = (rho_a + rho_b)/2, the other choice of KHP95."""
 
 
 @generic
 def density_factor(term, rho):
-    """What the records hold as s, so that 1/rho_ab costs little in the loop."""
+    """Factor s of a record, from which the loop computes 1/rho_ab at little cost."""
 
 
 density_factor.of(Gradients)(lambda term, rho: 1/np.sqrt(rho))
@@ -52,14 +52,14 @@ def _(term, a, b, ab):
 
 @formula
 def _differences(a, b, x, y):
-    """Differences of vx, vy, T times x, then times y; s makes them four, one vector register."""
+    """Differences of vx, vy, T times x, then times y; with s they are four and fill a vector register."""
     u, v, T, s = b.vx - a.vx, b.vy - a.vy, b.T - a.T, b.s - a.s
     return u*x, v*x, T*x, s*x, u*y, v*y, T*y, s*y
 
 
 @pair_term(Fluxes, 5)
 def _(term, a, b, ab):
-    # four equal sums in one vector register; the fourth is not used
+    # four sums of the same form fill a vector register; the fourth is not used
     fx = (a.xx + b.xx)*ab.wx + (a.yx + b.yx)*ab.wy
     fy = (a.xy + b.xy)*ab.wx + (a.yy + b.yy)*ab.wy
     q = (a.qx + b.qx)*ab.wx + (a.qy + b.qy)*ab.wy
@@ -70,7 +70,7 @@ def _(term, a, b, ab):
 class DirectFluxes(NamedTuple):
     """Pressure as in `Fluxes`; viscosity and conduction from differences along the pair:
 
-    a_a = sum_b [(eta_a + eta_b)/(rho_a rho_b)] (v_a - v_b) F m, de_a = the work of that force shared equally
+    a_a = sum_b [(eta_a + eta_b)/(rho_a rho_b)] (v_a - v_b) F m, de_a = half of the work of this force
     + sum_b [(k_a + k_b)/(rho_a rho_b)] (T_a - T_b) F m, F = w'/r [Morris, Brookshaw].
     """
 

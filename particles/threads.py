@@ -10,7 +10,7 @@ from continuum.jit import overload
 
 
 class Threads:
-    """Calls a compiled function(first, last, ...) on equal ranges of rows, one a thread: bitwise the same."""
+    """Call a compiled function(first, last, ...) on equal row ranges, one per thread, bitwise as on one."""
 
     def __init__(self, number: int = 1):
         if not (isinstance(number, (int, np.integer)) and number >= 1):
@@ -19,7 +19,7 @@ class Threads:
         self._pool: ThreadPoolExecutor | None = ThreadPoolExecutor(number - 1) if number > 1 else None
 
     def __call__(self, function: Callable, rows: int, *arguments: Any) -> list:
-        """Results of function(first, last, *arguments) over all ranges."""
+        """List of the results of function(first, last, *arguments), one per range."""
         if self._pool is None or rows < 64*self.number:
             return [function(0, rows, *arguments)]
         cuts = [rows*t//self.number for t in range(self.number + 1)]
@@ -28,7 +28,7 @@ class Threads:
 
 
 def shared(function: Callable) -> Any:
-    """call(threads, rows, ...) of a compiled function(first, last, ...), whose rows `Threads` share.
+    """Turn a compiled function(first, last, ...) into call(threads, rows, ...), whose rows threads share.
 
     In compiled code one thread takes all rows, whatever `threads` is.
     """

@@ -1,7 +1,7 @@
 """The weight family: w(r) = scale phi(r/h) in d dimensions, zero from the range h on, with unit integral.
 
-A weight is a NamedTuple made by ``Lucy.of(h=3.0)`` and two formulas of q = r/h, both zero at q = 1 so that
-the pair loop needs no branch: `shape` phi(q) and `slope` phi'(q)/q, which is finite at q = 0.
+A weight is a NamedTuple, as made by ``Lucy.of(h=3.0)``, and two formulas of q = r/h. Both are zero at q = 1,
+so that the pair loop needs no branch: `shape` phi(q) and `slope` phi'(q)/q, which is finite at q = 0.
 """
 from collections.abc import Callable
 from functools import cache
@@ -25,13 +25,13 @@ def slope(weight, q):
     """phi'(q)/q, not normalised."""
 
 
-LONGEST = 1e100     # its cube is still a number
+LONGEST = 1e100     # largest range; its cube is a finite float
 Formula = Callable[[None, float], float]
-#: where the slope is held against a difference: beside the knots of splines
+#: q, off the knots of splines, where the slope is compared with a difference quotient, and its step
 PLACES, STEP = (0.1370, 0.3891, 0.6129, 0.8713), 1e-5
-#: of the largest value: expanded polynomials with coefficients in the thousands cancel to this at q = 1
+#: relative to the largest value: what expanded polynomials with coefficients of thousands leave at q = 1
 ROUND_OFF = 1e-12
-#: of the steepest slope: the difference is good to 2e-8 where phi''' = 1000 phi', and round-off 1e-10
+#: relative to the steepest slope: difference quotients err by 2e-8 if phi''' = 1000 phi', round-off is 1e-10
 DIFFERENCE = 1e-6
 
 
@@ -53,8 +53,8 @@ def formulas(kind: type) -> tuple[Formula, Formula]:
 
 @cache
 def check_formulas(name: str, phi: Formula, over_q: Formula) -> None:
-    """Refuse formulas that the pair loops, which have no branch for the range, would take without a word:
-    phi or phi' is not zero at q = 1, phi'/q not finite at q = 0, or not the derivative of phi over q."""
+    """Check formulas, as pair loops have no branch for the range. Raises ValueError: phi or phi'/q is not
+    zero at q = 1, phi'/q is not finite at q = 0, or phi'/q is not the derivative of phi over q."""
     largest, steepest = (max(abs(f(None, q)) for q in PLACES) for f in (phi, over_q))
     for what, edge, size in (("phi", phi(None, 1.0), largest), ("phi'/q", over_q(None, 1.0), steepest)):
         if not abs(edge) <= ROUND_OFF*size:
@@ -82,9 +82,9 @@ class Weight(_Fields):
 
     @classmethod
     def of(cls, h: float, d: int = 2):
-        """The weight of range h in d dimensions.
+        """Make the weight of range h in d dimensions.
 
-        TypeError: h is no number, or a formula is missing. ValueError: h, d, or formulas that do not fit.
+        Raises TypeError: h is no number, or a formula is missing. ValueError: h, d or a formula is not valid.
         """
         if not isinstance(h, Real):
             raise TypeError(f"the range h of a weight must be a number, got {h!r}: KHP95 use h = 3 sigma")
@@ -100,7 +100,7 @@ class Weight(_Fields):
 
 
 def check_unit(weight: Weight) -> None:
-    """Refuse a weight whose integral in 2D is not 1: every density would be multiplied by it."""
+    """Check that the integral of a weight in 2D, a factor of every density, is 1. Raises ValueError."""
     kind, h = type(weight), weight.h
     whole = weight.scale*unit_integral(formulas(kind)[0], 2)*h**2 if 0 < h < inf else nan
     if not abs(whole - 1) <= 1e-9:
@@ -131,7 +131,7 @@ class WendlandC6(Weight):
 shape.of(Lucy)(lambda weight, q: (1 + 3*q)*(1 - q)**3)
 slope.of(Lucy)(lambda weight, q: -12*(1 - q)**2)
 shape.of(Monaghan)(lambda weight, q: 2*(1 - q)**3 - 8*max(0.5 - q, 0.0)**3)
-# -6 (1-q)^2 + 24 (1/2-q)^2 = -12 q + 18 q^2 inside: written without a division by q = 0
+# -6 (1-q)^2 + 24 (1/2-q)^2 = -12 q + 18 q^2 below q = 1/2: written without a division by q = 0
 slope.of(Monaghan)(lambda weight, q: -12 + 18*q if q < 0.5 else -6*(1 - q)**2/q)
 shape.of(WendlandC2)(lambda weight, q: (1 - q)**4*(1 + 4*q))
 slope.of(WendlandC2)(lambda weight, q: -20*(1 - q)**3)

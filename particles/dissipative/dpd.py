@@ -2,8 +2,8 @@
 
     F_ij = [a w - gamma w^2 (e.v_ij) + sqrt(2 gamma kT/dt) w zeta_ij] e,    w = 1 - r,    e = r_ij/r
 
-zeta_ij = zeta_ji of mean 0 and variance 1, new in every step. Units: masses and the range rc are 1. The state
-(3 d, n) is x, v and the force of the end of the last step, so that integrators and restarts know it.
+zeta_ij = zeta_ji has mean 0 and variance 1, and is new in every step. Masses and the range rc are 1. The
+state (3 d, n) is x, v and the force at the end of the last step, which integrators and restarts need.
 """
 from dataclasses import dataclass
 from math import inf
@@ -22,16 +22,16 @@ from particles.neighbours import u32, u64
 from particles.noise import check_seed
 from particles.threads import Threads
 
-SORT = 20       # steps after which particles are put in the order of cells again
+SORT = 20       # steps between sorts of the particles by cells
 
 
 @dataclass(frozen=True, kw_only=True)
 class Dpd:
     """A fluid of dissipative particles in a periodic box (width, height[, depth]) centred on the origin.
 
-    a, gamma, kT : repulsion, friction, temperature. noise : `Uniform(seed)`. skin : of the lists.
-    integrator : of `integrators`, or `TwoStep` for RR98 Eqs 40, 41. Raises ValueError: a parameter that makes
-    no fluid.
+    a, gamma, kT : repulsion, friction, temperature. noise : `Uniform(seed)`. skin : of the neighbour lists.
+    integrator : one of `integrators`, or `TwoStep` for RR98 Eqs 40, 41. Raises ValueError: a parameter is out
+    of range.
     """
     box: tuple[float, ...]
     a: float = 25.0
@@ -52,7 +52,7 @@ class Dpd:
 
     @property
     def d(self) -> int:
-        """Dimensions."""
+        """Number of dimensions."""
         return len(self.box)
 
     @property
@@ -64,19 +64,19 @@ class Dpd:
         return float(np.prod(self.box))
 
     def law(self, dt: float) -> Law:
-        """Amplitudes for a step: sigma^2 dt = 2 gamma kT    [Español & Warren 1995]"""
+        """Amplitudes of the forces for a step dt: sigma^2 dt = 2 gamma kT    [Español & Warren 1995]"""
         return Law(self.a, self.gamma, float(np.sqrt(2*self.gamma*self.kT/dt)))
 
     def longest_step(self, n: int) -> float:
-        """2/omega of velocity-Verlet and 2/Lambda of forward friction, where all neighbours oppose:
-        omega^2 = 2 rho V a/d, Lambda = 2 rho V gamma <w^2>/d."""
+        """The smaller of 2/omega (velocity-Verlet) and 2/Lambda (forward friction), where all neighbours move
+        against a particle: omega^2 = 2 rho V a/d, Lambda = 2 rho V gamma <w^2>/d, V that of the unit ball."""
         rho_V = n/self.volume*{2: np.pi, 3: 4*np.pi/3}[self.d]
         w2 = 2/((self.d + 1)*(self.d + 2))       # mean over the ball: d int (1 - s)^2 s^(d - 1) ds
         omega, friction = np.sqrt(2*rho_V*self.a/self.d), 2*rho_V*self.gamma*w2/self.d
         return float(min(2/max(omega, 1e-300), 2/max(friction, 1e-300)))
 
     def random_start(self, rho: float, seed: int = 1) -> np.ndarray:
-        """State (3 d, n) at random, velocities of kT. ValueError: rho leaves no pair."""
+        """State (3 d, n) at random places, velocities of kT. Raises ValueError: rho gives no pair."""
         if not 2/self.volume <= rho < inf:
             raise ValueError(f"rho = {rho} makes no two particles in a volume of {self.volume:g}: take 3")
         rng, n = np.random.default_rng(seed), round(rho*self.volume)
@@ -86,12 +86,12 @@ class Dpd:
         return np.concatenate([x, v, np.zeros_like(x)])
 
     def temperature(self, state: np.ndarray) -> float:
-        """kT of velocities: d (n - 1) of them are free, their sum is conserved."""
+        """kT of the velocities, with d (n - 1) degrees of freedom, as their sum is conserved."""
         v = state[self.d:2*self.d]
         return float((v**2).sum()/(len(v)*(v.shape[1] - 1)))
 
     def fields(self, state: np.ndarray) -> Fields:
-        """Of the particles, (n,) each: mean density, and the temperature of all velocities."""
+        """Fields of the particles, (n,) each, with the mean density and the temperature of all velocities."""
         x, v = state[:self.d].T.copy(), state[self.d:2*self.d].T.copy()
         one, n = np.ones(len(x)), len(x)
         return Fields(x, v, n/self.volume*one, self.temperature(state)*one, self.volume/n*one)
@@ -102,11 +102,11 @@ class Dpd:
 
 @limit_of.register
 def _(method: Dpd, start: np.ndarray) -> float:
-    return np.inf       # it is told in its own words where the step is known: `Forces.make_ready`
+    return np.inf       # `Forces.make_ready` checks the step, with a message of its own
 
 
 class Forces(Sums):
-    """The pair sums of n particles, as time loop and integrators want them."""
+    """Pair sums of n particles, for the time loop and the integrators."""
 
     def __init__(self, method: Dpd, n: int, threads: Threads):
         self.method, self.n, self.threads, self.places = method, n, threads, method.d
@@ -114,10 +114,10 @@ class Forces(Sums):
         self.total, self.taken = np.empty((n, 3)), (np.empty(n, u64), np.empty(n, u32))
         self.particle, self.dt = np.empty(0, pairs3d.Record), 1.0
         self.now: Any = None                       # the run
-        self.seen: np.ndarray | None = None        # sums that quantities share
+        self.seen: np.ndarray | None = None        # sums that measured quantities share
 
     def resume(self, now: Any) -> None:
-        """Lists as a restarted run had them."""
+        """Make the lists that the interrupted run had."""
         self.now = now
         if now.anchor is not None:
             self.images.relist(now.anchor)
@@ -128,7 +128,7 @@ class Forces(Sums):
             self.images.anchor = now.anchor = None      # lists are made anew before the first step
 
     def make_ready(self, now: Any, dt: float) -> None:
-        """Lists for the step; before the first its force. ValueError: the step is above the limit."""
+        """Sort particles every SORT steps; make the first force. Raises ValueError: dt is above the limit."""
         d, self.now, self.dt = self.places, now, dt
         if now.step == 0 and not dt <= self.method.longest_step(self.n):
             limit = self.method.longest_step(self.n)
@@ -145,7 +145,7 @@ class Forces(Sums):
         return ""
 
     def look_at(self, state: np.ndarray) -> None:
-        """Quantities make their sums when the first of them asks."""
+        """Forget the sums of an earlier state; the first quantity that needs sums computes them."""
         self.seen = None
 
     def velocity(self, state: np.ndarray) -> np.ndarray:
@@ -162,12 +162,12 @@ class Forces(Sums):
         self._force(self.method.law(self.dt), self.method.noise, self.now.step + 1, x, v, out)
 
     def soft(self, x: np.ndarray, out: np.ndarray) -> None:
-        """Repulsion only."""
+        """Forces (d, n) of repulsion only."""
         law = self.method.law(self.dt)._replace(gamma=0.0)
         self._force(law, Silent(0), 0, x, x, out)
 
     def rub(self, x: np.ndarray, v: np.ndarray, dt: float) -> None:
-        """Friction and noise act on v for dt."""
+        """Apply friction and noise to v for a time dt."""
         method = self.method
         self._records(x, v)
         pairs3d.rub_pairs(self.n, method.law(dt), method.noise, self.now.step + 1, dt, self.particle,
@@ -191,7 +191,7 @@ class Forces(Sums):
                      self.taken, out)
 
     def _records(self, x, v):
-        """Particles and ghosts where they are; new lists if these may miss a pair."""
+        """Write records of particles and ghosts at x, v; make new lists if the old ones may miss a pair."""
         images = self.images
         if images.stale(x):
             images.relist(x)

@@ -1,12 +1,12 @@
-"""Dissipative particles with energies of their own, which friction heats and conduction exchanges
+"""Dissipative particles with internal energies, which friction heats and conduction exchanges (eDPD)
 
     F_ij = [a w - gamma_ij w^2 u + sigma w zeta/sqrt(dt)] r_ij/r,    u = (v_i - v_j).r_ij/r,    w = 1 - r
     de_i/dt = sum_j -1/2 (friction and noise of F_ij).(v_i - v_j) + q_ij,    T_i = e_i/C
     q_ij = k_ij w^2 (1/T_i - 1/T_j) + sqrt(2 k_ij/dt) w zeta'_ij,    k_ij = kappa C^2 (T_i + T_j)^2/4
 
-A sigma that does not depend on temperatures, with gamma_ij = sigma^2/4 (1/T_i + 1/T_j), makes the entropy
-sum C ln e_i that of equilibrium, exactly    [Espanol 1997; Avalos & Mackie 1997]. Conduction is that of Li et
-al. 2014, whose k_ij a pair's exchange does not change. Units: k_B, masses and the range are 1.
+With sigma independent of temperatures and gamma_ij = sigma^2/4 (1/T_i + 1/T_j), equilibrium has exactly the
+entropy sum C ln e_i    [Espanol 1997; Avalos & Mackie 1997]. Conduction is that of Li et al. 2014: exchanges
+between i and j do not change k_ij. Units: k_B, masses and the range are 1.
 """
 from dataclasses import dataclass, replace
 from math import inf
@@ -21,11 +21,11 @@ from particles.noise import uniform, words_of_pair
 from particles.pairs import pair_term
 from particles.threads import Threads
 
-PASSES = 4      # of friction at the mean velocity of a step: each gains a factor of some 20
+PASSES = 4      # iterations for friction at the mean velocity of a step: each cuts the error some 20 times
 
 
 class Exchange(NamedTuple):
-    """Force of friction and noise (3), and heat, its work done on velocities u (n, 3); T, u by numbers."""
+    """Force of friction and noise (3), and heat, with its work on velocities u (n, 3); T, u by id."""
     seed: int
     step: int
     dt: float
@@ -37,7 +37,7 @@ class Exchange(NamedTuple):
 
 @pair_term(Exchange, 4)
 def _(term, a, b, ab):
-    """[...] r_ij/r without a, and -F.(u_i - u_j)/2 + q_ij"""
+    """F = [...] r_ij/r without a w, and -F.(u_i - u_j)/2 + q_ij"""
     x, y, z = ab.dx, ab.dy, ab.dz
     r = np.sqrt(x*x + y*y + z*z)
     T, other, u, v = term.T[a.id], term.T[b.id], term.u[a.id], term.u[b.id]
@@ -52,9 +52,9 @@ def _(term, a, b, ab):
 
 @dataclass(frozen=True, kw_only=True)
 class Edpd(Dpd):
-    """Such a fluid; gamma is the friction where all temperatures are kT, C the heat capacity of a particle.
+    """A `Dpd` fluid with energies. gamma : friction where all temperatures are kT. C : heat capacity of each.
 
-    The state has e below x, v and the force of repulsion. ValueError: C or kappa makes no fluid.
+    State rows are x, v, the force of repulsion, e. Raises ValueError: C or kappa is out of range.
     """
     C: float = 100.0
     kappa: float = 0.01
@@ -70,15 +70,15 @@ class Edpd(Dpd):
         return (*super().names, "e")
 
     def law(self, dt: float) -> Law:
-        """Of repulsion alone."""
+        """Amplitudes of repulsion only."""
         return Law(self.a, 0.0, 0.0)
 
     def longest_step(self, n: int) -> float:
-        """Conduction is as fast as a friction d kappa C where all neighbours oppose."""
+        """Limit of `Dpd`, where conduction counts as a friction of d kappa C."""
         return Dpd.longest_step(replace(self, gamma=max(self.gamma, self.d*self.kappa*self.C)), n)
 
     def random_start(self, rho: float, seed: int = 1) -> np.ndarray:
-        """State (3 d + 1, n) at random, all temperatures kT."""
+        """State (3 d + 1, n) at random places, all temperatures kT."""
         state = super().random_start(rho, seed)
         return np.vstack([state, np.full(state.shape[1], self.C*self.kT)])
 
@@ -87,7 +87,7 @@ class Edpd(Dpd):
 
 
 class Exchanges(Forces):
-    """Pair sums that exchange energy, too."""
+    """Pair sums of n particles that exchange energy as well."""
     method: Edpd
 
     def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
@@ -95,10 +95,10 @@ class Exchanges(Forces):
         return f"particle {ids[i]} has e = {state[-1, i]:.6g}: shorten the step"*bool(state[-1, i] <= 0)
 
     def rub(self, x: np.ndarray, v: np.ndarray, dt: float) -> None:
-        """Friction, noise and conduction act on v and the energies for dt.
+        """Apply friction, noise and conduction to v and the energies for a time dt.
 
-        Friction is that at the mean of v before and after, which keeps kT at any step; heat is the work of
-        these very forces on that mean, so that no energy is lost but by round-off.
+        Friction is taken at the mean of v before and after, which keeps kT at any step. Heat is the work of
+        the same forces on this mean, which conserves energy to round-off.
         """
         method, ids, e, d = self.method, self.now.ids, self.now.state[-1], len(v)
         sigma, k = np.sqrt(2*method.gamma*method.kT), method.kappa*method.C**2

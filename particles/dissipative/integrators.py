@@ -1,8 +1,8 @@
-"""Time steps of particles with friction and noise; a state is x, v and the last force.
+"""Time integrators of particles with friction and noise; a state is x, v and the last force.
 
 sums.places : d. sums.forces(x, v, out) writes the forces at x, v with the noise of this step;
-sums.soft(x, out) those that depend neither on velocities nor on noise; sums.rub(x, v, dt) lets friction and
-noise act on v, pair by pair.
+sums.soft(x, out) writes those that depend neither on velocities nor on noise; sums.rub(x, v, dt) applies
+friction and noise to v, pair by pair.
 """
 from typing import Any
 
@@ -45,17 +45,17 @@ class GrootWarren:
         self._threads(_kick, x.size, v.ravel(), f.ravel(), new.ravel(), dt)
 
     def forces(self, sums: Any, x: np.ndarray, v: np.ndarray, out: np.ndarray) -> None:
-        """Those of the end of the step."""
+        """Write the forces at the end of the step."""
         sums.forces(x, v, out)
 
 
 class GrootWarren65(GrootWarren):
-    """The same with lam = 0.65, Groot & Warren's best for the temperature at rho = 3."""
+    """As `GrootWarren` with lam = 0.65, which they find best for the temperature at rho = 3."""
     lam = 0.65
 
 
 class VelocityVerlet(GrootWarren):
-    """Velocity-Verlet with friction once more at the final velocities    [Besold et al. 2000, DPD-VV]"""
+    """Velocity-Verlet, with forces once more at the final velocities    [Besold et al. 2000, DPD-VV]"""
 
     def step(self, sums: Any, y: np.ndarray, dt: float) -> None:
         super().step(sums, y, dt)
@@ -65,7 +65,7 @@ class VelocityVerlet(GrootWarren):
 
 class Shardlow(GrootWarren):
     """Friction and noise pair by pair, implicitly, then velocity-Verlet without them [Shardlow 2003, S1].
-    Pairs follow the order of the lists: the same for any number of threads and over a restart."""
+    Pairs are taken in the order of the lists, the same for any number of threads and after a restart."""
     lam = 0.0
 
     def step(self, sums: Any, y: np.ndarray, dt: float) -> None:
@@ -80,7 +80,7 @@ class Shardlow(GrootWarren):
 class KickDriftFrictionDriftKick(GrootWarren):
     """Half a kick, half a drift, friction and noise for a whole step, half a drift, half a kick.
 
-    The conserved momentum stays, kT is off by second order    [Leimkuhler & Matthews 2013, BAOAB]
+    Momentum is conserved; the error of kT is of second order    [Leimkuhler & Matthews 2013, BAOAB]
     """
 
     def step(self, sums: Any, y: np.ndarray, dt: float) -> None:

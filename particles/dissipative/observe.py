@@ -1,4 +1,4 @@
-"""What is measured on dissipative particles, of the pair sums and the state (3 d, n) = x, v, f."""
+"""Quantities of dissipative particles, from the pair sums and the state (3 d, n) = x, v, f."""
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -7,7 +7,7 @@ from particles.pairs import pair_term
 
 
 class Static(NamedTuple):
-    """Sums of the repulsion F: components, Laplacian of its potential, F.r, (F less friction)_x y."""
+    """Sums of the repulsion F: components, Laplacian of its potential, F.r, and y f_x, f = F + friction."""
     d: int
     a: float
 
@@ -22,29 +22,29 @@ def _(term, a, b, ab):
 
 
 def static_sums(sums: Any, state: np.ndarray) -> np.ndarray:
-    """(n, 6) of `Static`, once for all quantities of a record."""
+    """Sums (n, 6) of `Static`, computed once for all quantities of a record."""
     if sums.seen is None:
         sums.seen = sums.over_pairs(Static(sums.method.d, sums.method.a), state, 6)
     return sums.seen
 
 
 def forces_squared(sums: Any, state: np.ndarray) -> float:
-    """|F|^2 a particle."""
+    """Mean |F|^2 per particle."""
     return float((static_sums(sums, state)[:, :3]**2).sum()/sums.n)
 
 
 def laplacian(sums: Any, state: np.ndarray) -> float:
-    """lap U a particle."""
+    """Mean Laplacian of the potential U per particle."""
     return float(static_sums(sums, state)[:, 3].sum()/sums.n)
 
 
 def kinetic_temperature(sums: Any, state: np.ndarray) -> float:
-    """kT of velocities."""
+    """kT of the velocities."""
     return sums.method.temperature(state)
 
 
 def configurational_temperature(sums: Any, state: np.ndarray) -> float:
-    """kT of positions, <|grad U|^2>/<lap U>, too high by 1/n    [Rugh 1997; Butler et al. 1998]"""
+    """kT from positions, <|grad U|^2>/<lap U>, too high by 1/n    [Rugh 1997; Butler et al. 1998]"""
     total = static_sums(sums, state)
     return float((total[:, :3]**2).sum()/total[:, 3].sum())
 

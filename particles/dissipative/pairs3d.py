@@ -1,4 +1,4 @@
-"""Pair sums of dissipative particles, compiled, block by block of rows, whose pairs stay in the cache."""
+"""Compiled pair sums of dissipative particles, in blocks of rows whose pairs stay in the cache."""
 from typing import NamedTuple
 
 import numpy as np
@@ -10,7 +10,7 @@ from particles.pairs import pair_at, pair_term, sweep
 
 Record = np.dtype([*((name, "f8") for name in ("x", "y", "z", "vx", "vy", "vz")),
                    ("id", "u8"), ("image", "u8")])
-ROWS = 32       # of a block: their pairs take some 30 KB
+ROWS = 32       # rows of a block: their pairs take some 30 KB
 
 
 class Uniform(NamedTuple):
@@ -25,7 +25,7 @@ class Silent(NamedTuple):
 
 @generic
 def draw(noise, step, i, j, count, zeta):
-    """zeta[k] of the first `count` pairs of particles with numbers i[k], j[k] in a step."""
+    """Write zeta[k] of the first `count` pairs, of particles with ids i[k], j[k], in a step."""
 
 
 @draw.of(Uniform)
@@ -40,15 +40,15 @@ def _(noise, step, i, j, count, zeta):
 
 
 class Law(NamedTuple):
-    """a, gamma, and the amplitude of the noise."""
+    """Repulsion a, friction gamma, and amplitude sigma of the noise."""
     a: float
     gamma: float
     sigma: float
 
 
 class Near(NamedTuple):
-    """Pairs of row i within rc: near, (dx, dy, dz) = r_i - r_j [first[i]:first[i] + taken[i]]; own, other:
-    their numbers. f r is the force that does not depend on velocities, g r^2 the friction."""
+    """Pairs within rc: row i has near, (dx, dy, dz) = r_i - r_j [first[i]:first[i] + taken[i]]; own, other :
+    ids of both. f r is the force that does not depend on velocities, g r^2 the friction coefficient."""
     first: np.ndarray
     taken: np.ndarray
     near: np.ndarray
@@ -63,7 +63,7 @@ class Near(NamedTuple):
 
 
 class Apart(NamedTuple):
-    """What a term knows of a pair."""
+    """Geometry and coefficients of a pair, as a term reads them."""
     dx: float
     dy: float
     dz: float
@@ -75,7 +75,7 @@ pair_at.of(Near)(lambda pairs, k: Apart(pairs.dx[k], pairs.dy[k], pairs.dz[k], p
 
 
 class Force(NamedTuple):
-    """All of the force."""
+    """The whole force of a pair."""
 
 
 @pair_term(Force, 3)
@@ -87,7 +87,7 @@ def _(term, a, b, ab):
 
 @jit
 def find_near(first, last, particle, lists, pairs):
-    """The pairs in range of rows first..last, r^2 as f; their number. Without a branch."""
+    """Find the pairs in range of rows first..last, with r^2 in f, without a branch. Returns their number."""
     end = u64(0)
     for i in range(u64(first), u64(last)):
         a, begin = particle[i], end
@@ -104,7 +104,7 @@ def find_near(first, last, particle, lists, pairs):
 
 @jit
 def weigh_near(law, count, zeta, f, g):
-    """f and g of the first `count` pairs from r^2 = f, in a loop for vector instructions."""
+    """f and g of the first `count` pairs, where f holds r^2 before, in a loop that LLVM vectorises."""
     for k in range(count):
         per_r = 1/np.sqrt(f[k])
         w_r = per_r - 1        # w/r
@@ -114,8 +114,8 @@ def weigh_near(law, count, zeta, f, g):
 
 @jit
 def room_for(first, last, lists, taken):
-    """Arrays for the pairs of the longest block of rows first..last. Each has memory of its own: rows of one
-    array LLVM takes for the same memory, and makes no vector instructions."""
+    """Arrays for the pairs of the longest block of rows first..last. Each has memory of its own: LLVM
+    takes rows of one array for the same memory and does not vectorise."""
     room = 1
     for start in range(first, last, ROWS):
         room = max(room, int(lists.length[start:min(start + ROWS, last)].sum()) + 1)
@@ -126,7 +126,7 @@ def room_for(first, last, lists, taken):
 
 @jit
 def sum_pairs(first, last, term, law, noise, step, particle, lists, taken, out):
-    """out[i] = sum of the term over the pairs of row i, a block of rows after the other."""
+    """out[i] = sum of the term over the pairs of row i, block by block of rows."""
     pairs = room_for(first, last, lists, taken)
     for start in range(first, last, ROWS):
         end = min(start + ROWS, last)
@@ -138,7 +138,7 @@ def sum_pairs(first, last, term, law, noise, step, particle, lists, taken, out):
 
 @jit
 def record(first, last, x, v, ids, images, particle):
-    """Records of points first..last."""
+    """Write records of points first..last."""
     for k in range(first, last):
         p, i = particle[k], images.parent[k]
         p.x, p.y = x[0, i] + images.shift[k, 0], x[1, i] + images.shift[k, 1]
@@ -148,9 +148,10 @@ def record(first, last, x, v, ids, images, particle):
 
 @jit
 def rub_pairs(n, law, noise, step, dt, particle, lists, taken):
-    """Friction and noise pair by pair, implicit midpoint: keeps kT at any step    [Shardlow 2003]
+    """Apply friction and noise pair by pair, by implicit midpoint: keeps kT at any step    [Shardlow 2003]
 
-    u' = u - K (u + u') + 2 s zeta along the pair, K = gamma w^2 dt, s^2 = 2 K kT; each of the two has half.
+    Relative velocity along a pair: u' = u - K (u + u') + 2 s zeta, K = gamma w^2 dt, s^2 = 2 K kT; each of
+    the two particles gets half of the change.
     """
     pairs = room_for(0, n, lists, taken)
     for start in range(0, n, ROWS):
@@ -161,11 +162,11 @@ def rub_pairs(n, law, noise, step, dt, particle, lists, taken):
             a = particle[i]
             for k in range(pairs.first[i], pairs.first[i] + pairs.taken[i]):
                 image = particle[pairs.near[k]].image
-                if image <= i:        # a pair of rows is that of the first
+                if image <= i:        # each pair is treated once, in the row of its lower index
                     continue
                 b, r = particle[image], np.sqrt(pairs.f[k])
                 ex, ey, ez, w = pairs.dx[k]/r, pairs.dy[k]/r, pairs.dz[k]/r, 1 - r
-                # y first, as LLVM has summed in committed runs
+                # y first: the order in which LLVM summed in committed runs
                 u = ey*(a.vy - b.vy) + ex*(a.vx - b.vx) + ez*(a.vz - b.vz)
                 K = law.gamma*w*w*dt
                 q = (law.sigma*dt*w*pairs.zeta[k] - K*u)/(1 + K)

@@ -1,8 +1,8 @@
 """A periodic box in two or three dimensions: cell order, ghosts and neighbour lists of the particles in it.
 
-Two dimensions are three with z = 0: one layer of cells, no ghosts above or below. Lists hold both directions
-of a pair, so that each row of a pair sum is written by one thread; in one layer of cells they take twice as
-long as those of `particles.neighbours`.
+Two dimensions are treated as three with z = 0: one layer of cells, no ghosts above or below. Each pair is in
+two lists, so that one thread writes a row of a pair sum. In two dimensions these lists take twice as long as
+those of `particles.neighbours`.
 """
 from typing import NamedTuple
 
@@ -15,11 +15,11 @@ from continuum.jit import jit
 from particles.neighbours import ONE, counting_sort, farthest, u32, u64
 from particles.threads import Threads
 
-MOST = 2000     # neighbours of a particle: beyond, they have collapsed
+MOST = 2000     # neighbours of a particle; with more, particles have collapsed
 
 
 class Cubes(NamedTuple):
-    """Points sorted into cubes: cell c holds order[start[c]:start[c+1]] at x; counts along x, y, z."""
+    """Points sorted into cubes: cell c holds order[start[c]:start[c+1]], x in this order; counts by axis."""
     low: np.ndarray
     side: float
     counts: np.ndarray
@@ -37,7 +37,7 @@ class Lists(NamedTuple):
 
 @jit
 def _cell(cells, x, k):
-    """Number of the cell of a point, layer by layer."""
+    """Index of the cell of point k; cells are numbered layer by layer."""
     c = 0
     for axis in range(2, -1, -1):
         c = c*cells.counts[axis] + int((x[k, axis] - cells.low[axis])/cells.side)
@@ -46,7 +46,7 @@ def _cell(cells, x, k):
 
 @jit
 def _sort(cells, x):
-    """Points by cell."""
+    """Sort points by cell."""
     cell = np.empty(len(x), np.int64)
     for k in range(len(x)):
         cell[k] = _cell(cells, x, k)
@@ -56,7 +56,7 @@ def _sort(cells, x):
 
 
 def sort_into_cells(x: np.ndarray, side: float) -> Cubes:
-    """Linked cells over points (n, 3), one empty around. FloatingPointError: far more cells than points."""
+    """Linked cells of points (n, 3), with an empty cell around. Raises FloatingPointError: too many cells."""
     low = x.min(axis=0) - side
     across = (x.max(axis=0) - low)/side + 2
     if not np.prod(across) <= 64*len(x) + 4096:
@@ -71,7 +71,7 @@ def sort_into_cells(x: np.ndarray, side: float) -> Cubes:
 
 @jit
 def _gather(cells, home, near, number):
-    """Copy the points of the 27 cells around `home` one behind the other; how many there are."""
+    """Copy the points of the 27 cells around `home` into `near` and `number`. Returns how many there are."""
     count, columns, layer = u64(0), cells.counts[0], cells.counts[0]*cells.counts[1]
     for up in range(-1, 2):
         for row in range(-1, 2):
@@ -85,7 +85,7 @@ def _gather(cells, home, near, number):
 
 @intrinsic
 def lowest_bit(typingctx, word):
-    """Number of the lowest bit of a 64-bit word that is one."""
+    """Index of the lowest bit of a 64-bit word that is one."""
     def build(context, builder, signature, arguments):
         return builder.cttz(arguments[0], ir.Constant(ir.IntType(1), 1))
     return types.uint64(types.uint64), build
@@ -93,7 +93,7 @@ def lowest_bit(typingctx, word):
 
 @jit
 def _within(x, y, z, far2, near, first):
-    """Bits of the 64 points near[:, first:] that are nearer to (x, y, z) than the root of far2."""
+    """Word whose bit b is one if point near[:, first + b] is nearer to (x, y, z) than the root of far2."""
     bits = u64(0)
     for b in range(u64(64)):
         dx, dy, dz = near[0, first + b] - x, near[1, first + b] - y, near[2, first + b] - z
@@ -103,9 +103,9 @@ def _within(x, y, z, far2, near, first):
 
 @jit
 def list_rows(first, last, n, cells, reach, capacity, lists):
-    """Write the lists of those of n particles that are first..last in the cells; False without room.
+    """Write the lists of the particles among points first..last of the cells. Returns False without room.
 
-    What is around a cell is compared 64 at a time, in vector instructions.
+    Points below n are particles. Points around a cell are compared 64 at a time, in vector instructions.
     """
     most = 27*np.diff(cells.start).max() + 64
     near, number = np.empty((3, most)), np.empty(most, u32)
@@ -134,9 +134,9 @@ def list_rows(first, last, n, cells, reach, capacity, lists):
 
 @jit
 def _ghosts(x, sides, d, margin, parent, shift):
-    """Shifts of n points into the box, then ghosts of what is within `margin` of a side.
+    """Shift n particles into the box, then make ghosts of points within `margin` of a side.
 
-    x (d, n); parent (room,), shift (room, 3) are filled; the number of points, or -1 if they do not fit.
+    Reads x (d, n), fills parent (room,), shift (room, 3). Returns the number of points, -1 without room.
     """
     n = count = x.shape[1]
     for i in range(n):
@@ -144,7 +144,7 @@ def _ghosts(x, sides, d, margin, parent, shift):
         for axis in range(d):
             shift[i, axis] = -sides[axis]*np.floor(x[axis, i]/sides[axis] + 0.5)
     for turn in range(d):
-        axis = (1, 0, 2)[turn]     # y first, as in committed runs: sums have the order of ghosts
+        axis = (1, 0, 2)[turn]     # y first, as in committed runs: ghosts set the order of sums
         for k in range(count):
             at = x[axis, parent[k]] + shift[k, axis]
             for way in (1, -1):
@@ -158,13 +158,13 @@ def _ghosts(x, sides, d, margin, parent, shift):
 
 
 class WithGhosts(NamedTuple):
-    """Particles, then ghosts: of which particle, where from there (points, 3)."""
+    """Particles, then ghosts: index of the particle (points,), shift from its place (points, 3)."""
     parent: np.ndarray
     shift: np.ndarray
 
 
 class Images:
-    """Ghosts and lists of n particles in a periodic box (d,), d = 2 or 3, centred on the origin."""
+    """Ghosts and neighbour lists of n particles in a periodic box (d,), d = 2 or 3, centred on the origin."""
 
     def __init__(self, n: int, box: tuple[float, ...], reach: float, skin: float, threads: Threads):
         self.n, self.box, self.threads = n, np.array(box, float), threads
@@ -178,13 +178,13 @@ class Images:
         return self.anchor is None or 2*farthest(x, self.anchor) > self.skin
 
     def order(self, x: np.ndarray) -> np.ndarray:
-        """Numbers of the particles in the order of cells."""
+        """Indices of the particles in cell order."""
         places = np.zeros((self.n, 3))
         places[:, :len(x)] = (x - self.box[:, None]*np.floor(x/self.box[:, None] + 0.5)).T
         return sort_into_cells(places, self.reach + self.skin).order
 
     def relist(self, x: np.ndarray) -> None:
-        """Ghosts and lists for particles at x (d, n)."""
+        """Make ghosts and lists for particles at x (d, n)."""
         reach, d = self.reach + self.skin, len(self.box)
         self.anchor = x.copy()
         places = self._make_points(x)
@@ -200,7 +200,7 @@ class Images:
                                  "they have collapsed onto each other; lower the step")
 
     def _make_points(self, x: np.ndarray) -> np.ndarray:
-        """Particles in the box and ghosts; their places (points, 3)."""
+        """Make `points`: particles in the box, and ghosts. Returns their places (points, 3)."""
         margin, count = self.reach + self.skin, -1
         room = int(1.1*self.n*np.prod(1 + 2*margin/self.box)) + 100
         while count < 0:

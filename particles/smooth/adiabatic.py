@@ -1,16 +1,16 @@
-"""MFM whose particles exchange no heat by pressure: the work that its public code takes in slow flows.
+"""MFM whose pressures exchange no heat between particles, as in its public code for slow flows.
 
-Printed MFM gives each of a pair P* S.(v_i - v*) [Hopkins 2015, Sec. 2]: v* runs down any jump of P between
-reconstructed states, and takes P* along as heat. Where images copy P, gravity kinks its slope and such jumps
-stay: a conducting layer at rest, Ra 10 000, 25 rows, gains -0.78 of k dT/L a row at its hot plate. GIZMO,
-hydro_core_meshless.h, therefore takes another work where |v*| is small beside c. Here, P* S.(v_i - v_j)/2.
+Printed MFM heats particle i of a pair by P* S.(v_i - v*) [Hopkins 2015, Sec. 2]. v* points down any jump of P
+between reconstructed states and carries P* along as heat. Where images copy P, gravity kinks its slope, and
+jumps stay: a conducting layer at rest, Ra 10 000, 25 rows, gains -0.78 of k dT/L per row at its hot plate.
+GIZMO, hydro_core_meshless.h, therefore uses another work if |v*| is small beside c; here P* S.(v_i - v_j)/2.
 """
 from particles.pairs import pair_term
 from particles.smooth.meshless import Given, Meshless, Mfm, area, pressed, push
 
 
 class Adiabatic(Given):
-    """As `Meshless`, but for the work."""
+    """As `Meshless`, with the work P* S.(v_i - v_j)/2."""
 
 
 @area.of(Adiabatic)
@@ -28,5 +28,5 @@ pair_term(Adiabatic, 3)(push)
 
 
 class AdiabaticMfm(Mfm):
-    """The sums with it."""
+    """Sums of MFM with the term `Adiabatic`."""
     kind = Adiabatic    # type: ignore[assignment]

@@ -1,19 +1,18 @@
-"""Smooth particles as used today: pressure over areas that corrected gradients make, friction along pairs.
+"""SPH with corrected gradients: pressure over corrected areas of pairs, friction and heat along pairs.
 
     M_i = sum_j V_j (x_j - x_i) grad_i w,    B_i = M_i^-1,    V = m/rho
 
-B_i grad_i w is exact on linear fields; grad_i w is not, so that its pressure is the stress P M, with a
-deviator where particles were sheared, which a fluid has not. Pairs push by V_i V_j (P_i A + P_j C):
+Gradients by B_i grad_i w are exact on linear fields. By grad_i w alone pressure acts as a stress P M, which
+has a deviator where particles were sheared; a fluid has none. The force of a pair is V_i V_j (P_i A + P_j C):
 
     sumB       A = B_i grad_i w, C = B_j grad_i w              stress P M B = P 1
-    RKGC       A = B_j grad_i w, C = B_i grad_i w              [Zhang, Adams & Hu 2024, there relaxed first]
+    RKGC       A = B_j grad_i w, C = B_i grad_i w              [Zhang, Adams & Hu 2024, relaxed first]
     symmetric  A = C = (B_i + B_j)/2 grad_i w                  [Bonet & Lok 1999]
 
-Friction and heat go along pairs, where M_i makes them tr M_i/2 times as large as they should be: `All`
-corrects that, too    [Schwaiger 2008, its first factor, made symmetric]. What friction along pairs lacks of a
-fluid's stress, tau = eta ((-d_y v, d_y u), (d_x v, -d_x u)), acts over A + C: without it rigid rotation
-heats. Momentum and energy are closed pair by pair: P_i A does its work on i, P_j C on j, friction half of it
-on each.
+Friction and heat act along pairs, tr M_i/2 times as strongly as they should; `All` corrects this as well
+[Schwaiger 2008, its first factor, made symmetric]. The part of a fluid's stress that friction along pairs
+lacks, tau = eta ((-d_y v, d_y u), (d_x v, -d_x u)), acts over A + C: without it rigid rotation heats. Each
+pair conserves momentum and energy: P_i A does its work on i, P_j C on j, friction half of it on each.
 """
 from typing import Any, ClassVar, NamedTuple
 
@@ -25,16 +24,16 @@ from particles.pairs import pair_term, sweep
 from particles.smooth.sums import Direct
 from particles.walls import mirrored
 
-#: B; tau by direction, then component
+#: of a particle; B is symmetric, tau has the direction first, then the component
 FIELDS = "x y vx vy T P irho eta k Bxx Bxy Byy xx xy yx yy"
 Point = np.dtype([(name, "f8") for name in FIELDS.split()])
-#: det M over (tr M)^2 that round-off leaves of neighbours in a line
+#: det M/(tr M)^2 that neighbours in a line have by round-off
 FLAT = 1e-12
 FAR = 2**62
 
 
 class Moments(NamedTuple):
-    """M_i (xx, xy, yy), and sum_j V_j (f_j - f_i) grad_i w, not yet corrected, of f = vx, vy, T."""
+    """M_i (xx, xy, yy), and uncorrected gradients sum_j V_j (f_j - f_i) grad_i w of f = vx, vy, T."""
 
 
 class SumB(NamedTuple):
@@ -58,12 +57,12 @@ PRESSURE_ONLY: tuple[type, ...] = (SumB, Reverse, Symmetric)
 
 @generic
 def gain(term, a, b):
-    """Friction and heat along a pair over those of `Direct`."""
+    """Ratio of friction and heat along a pair to those of `Direct`."""
 
 
 @generic
 def areas(term, own, other):
-    """(A, C) from B_a grad w and B_b grad w, (x, y) each."""
+    """(A, C) from own = B_a grad w and other = B_b grad w, each (x, y)."""
 
 
 for kind in PRESSURE_ONLY:
@@ -112,7 +111,7 @@ for kind in (*PRESSURE_ONLY, All):
 
 
 class Corrected(Direct):
-    """The sums with one of these terms."""
+    """Sums with corrected gradients and one of the terms of pressure."""
     term: ClassVar[Any] = SumB()
 
     def allocate(self, points: int) -> None:
@@ -120,7 +119,7 @@ class Corrected(Direct):
         self.records, self.moments = np.empty(points, Point), np.empty((self.around.rows, 9))
 
     def gradients(self) -> None:
-        """Corrected ones, for whatever is measured."""
+        """Corrected gradients, for measured quantities."""
         self.exchange(self.less)
         self.threads(_slopes, self.around.rows, self.moments, self.records, self.slopes)
 
@@ -161,7 +160,7 @@ def _read(first, last, law, x, y, rho, vx, vy, T, less, records):
 
 @jit
 def _correct(first, last, moments, records):
-    """B = M^-1, and tau of corrected gradients; the first row without B, or far beyond all."""
+    """B = M^-1, and tau from corrected gradients. Returns the first row whose M has no inverse, or FAR."""
     for i in range(first, last):
         a, (xx, xy, yy, ux, uy, vx, vy, _, _) = records[i], moments[i]
         det = xx*yy - xy*xy
@@ -175,7 +174,7 @@ def _correct(first, last, moments, records):
 
 @jit
 def _slopes(first, last, moments, records, slopes):
-    """d_x of vx, vy, T, and d_y, as `SmoothSums.gradient` has them."""
+    """Corrected d_x and d_y of vx, vy, T, in the columns that `SmoothSums.gradient` reads."""
     for i in range(first, last):
         for k in range(3):
             slopes[i, k], slopes[i, 4 + k] = turned(records[i], moments[i, 3 + 2*k], moments[i, 4 + 2*k])
@@ -183,7 +182,7 @@ def _slopes(first, last, moments, records, slopes):
 
 @jit
 def _image(first, last, parent, axis, records):
-    """B of the parents, mirrored, and tau of a velocity that is reversed: slopes along a side change sign."""
+    """Images: B of parents, mirrored; tau of the reversed velocity, whose slopes along a side change sign."""
     along_x, along_y = (-1.0 if axis == 1 else 1.0), (-1.0 if axis == 0 else 1.0)
     for i in range(first, last):
         a, p = records[i], records[parent[i - first]]

@@ -1,4 +1,4 @@
-"""Sums whose particles move with v + d, d = (dx, dy) of their records."""
+"""Sums of particles that move with v + d, where records have d = (dx, dy)."""
 from typing import Any, ClassVar
 
 import numpy as np
@@ -7,11 +7,11 @@ from particles.smooth.sums import Direct, check_along_pairs
 from particles.threads import Threads
 from particles.walls import mirrored
 
-MOVED = 0.25        # of the skin: what may be gone of it before a step, in which d leads no farther than that
+MOVED = 0.25        # part of the skin that a particle may use before a step; d uses no more of it in the step
 
 
 class Led(Direct):
-    """What shifted and transported particles share; numbers : of one particle; vectors : those that turn."""
+    """Base class of shifted and transported particles. numbers : record type; vectors : mirrored fields."""
     numbers: ClassVar[np.dtype]
     vectors: ClassVar[tuple[tuple[str, str], ...]] = (("dx", "dy"),)
 
@@ -29,7 +29,7 @@ class Led(Direct):
         self.records = np.zeros(points, self.numbers)
 
     def mirror(self) -> None:
-        """Vectors of images."""
+        """Set the vectors of images: mirrors reverse the component across them."""
         for wall, parent, first, last in self.around.blocks:
             for axis, name in ((axis, pair[axis]) for pair in self.vectors for axis in (0, 1)):
                 sign = -1.0 if axis == mirrored(wall) else 1.0

@@ -1,12 +1,12 @@
-"""Smooth particles whose pairs share one area and one pressure, as used today.
+"""CRKSPH and MFM: particle methods whose pairs have one common area and one common pressure.
 
-Particle i feels -P* S_ij:
+The force of a pair on particle i is -P* S_ij:
 
     CRKSPH   S_ij = V_i V_j (grad_i W^R_ij - grad_j W^R_ji), P* = (P_i + P_j)/2    [Frontiere et al. 2017]
     MFM      S_ij = W_ij (V_i B_i + V_j B_j) x_ij, B_i = (sum_j W_ij x_ij x_ij)^-1, x_ij = x_j - x_i; P*
              of a Riemann problem    [Lanson & Vila 2008; Hopkins 2015]
 
-Densities are summed; friction and heat are those of `corrected`. Left out is CRKSPH's artificial viscosity.
+Densities are summed; friction and heat are those of `corrected`. CRKSPH's artificial viscosity is left out.
 """
 from typing import Any, ClassVar, NamedTuple
 
@@ -20,8 +20,8 @@ from particles.threads import Threads
 from particles.walls import image_pressure, mirrored
 from particles.weights import shape, value_and_slope
 
-#: numbers of a kind of particle, and how a mirror turns them: along x, along y; -: it reverses them, too
-#: images have the speed of sound of their particles, not of their T: what touches a wall at rest rests
+#: additional fields of a record, and their sign in a mirror: each x changes it in a mirror across x, each y
+#: across y, - in both. Images copy c and do not take that of their T, so that v* is 0 at a wall at rest
 REPRODUCING = {"c": "", "p": "", "qx": "x", "qy": "y", "gx": "x", "gy": "y", "qxx": "xx", "qxy": "xy",
                "qyx": "xy", "qyy": "yy"}
 MESHLESS = {"c": "", "bxx": "xx", "bxy": "xy", "byy": "yy", "u_x": "-x", "u_y": "-y", "v_x": "-x",
@@ -34,13 +34,13 @@ class Given(NamedTuple):
 
 
 class Moments(Given):
-    """m0, m1, m2 of W without the particle itself, and their gradients with respect to W's    [Eqs 12-15]"""
+    """m0, m1, m2 of W without the particle itself, and the parts of their gradients in grad W [Eqs 12-15]"""
 
 
 class Reproducing(Given):
     """CRKSPH: W^R_ij = A_i (1 + B_i.x_ij) W_ij, x_ij = x_i - x_j, is exact on linear fields    [Eqs 12-15]
 
-    Records hold p = A, q = A B, g = grad p + q, q_ab = d_b q_a. The work of both is shared as P_i : P_j.
+    Records hold p = A, q = A B, g = grad p + q, q_ab = d_b q_a. A pair's work is shared as P_i : P_j.
     """
 
 
@@ -49,20 +49,20 @@ class Differences(Given):
 
 
 class Meshless(Given):
-    """MFM: states at the middle of a pair, limited, and the acoustic solver    [Hopkins 2015; Toro 2009, 9.3]
+    """MFM: limited states at the middle of a pair, the acoustic solver    [Hopkins 2015; Toro 2009, 9.3]
 
-    Of App. B the limiter by extremes of neighbours is left out, for shocks, and the rule that keeps signs.
+    Left out of App. B: the limiter by extremes of neighbours, for shocks, and the rule that keeps signs.
     """
 
 
 @generic
 def area(term, a, b, x, y, ab):
-    """S_ab/2m; (x, y) = x_b - x_a."""
+    """Area vector over twice the mass, S_ab/2m; (x, y) = x_b - x_a."""
 
 
 @generic
 def pressed(term, a, b, x, y, Sx, Sy):
-    """P*, and how it heats a over S/2m."""
+    """P*, and the heating of a by P* over the area S/2m."""
 
 
 @pair_term(Moments, 12)
@@ -124,7 +124,7 @@ def _(term, a, b, x, y, Sx, Sy):
 
 @formula
 def middle(a, b, x, y):
-    """vx, vy, P of a, half of the way to b."""
+    """vx, vy, P at the middle of the pair, reconstructed from a and limited."""
     return (limited(a.vx, b.vx, a.vx + 0.5*(a.u_x*x + a.u_y*y)),
             limited(a.vy, b.vy, a.vy + 0.5*(a.v_x*x + a.v_y*y)),
             limited(a.P, b.P, a.P + 0.5*(a.P_x*x + a.P_y*y)))
@@ -132,15 +132,15 @@ def middle(a, b, x, y):
 
 @formula
 def limited(own, other, value):
-    """Within half of the difference of the own value, a quarter of the mean    [App. B, psi_1, psi_2]"""
-    # both ends without asking which is the lower one: that branch would be mispredicted for every other pair
+    """Limit a value to [own - d/2, mean + d/4], d = other - own    [App. B, psi_1, psi_2]"""
+    # no branch on which end is the lower one: it would be mispredicted for every other pair
     d = other - own
     one, end = own - 0.5*d, 0.5*(own + other) + 0.25*d
     return max(min(one, end), min(max(one, end), value))
 
 
 def push(term, a, b, ab):
-    """Acceleration and heating of a; friction and what it lacks of a fluid's stress as in `corrected`."""
+    """Acceleration and heating of a; friction and the stress tau as in `corrected`."""
     x, y, u, v = b.x - a.x, b.y - a.y, b.vx - a.vx, b.vy - a.vy
     Sx, Sy = area(term, a, b, x, y, ab)
     P, work = pressed(term, a, b, x, y, Sx, Sy)
@@ -157,12 +157,12 @@ pair_term(Meshless, 3)(push)
 
 
 class OverFaces(Corrected):
-    """Sums and fields of a kind of particle, besides the corrected gradients of `Corrected`."""
+    """Base class of CRKSPH and MFM: sums and fields in addition to those of `Corrected`."""
     sums: ClassVar[Any]
     columns: ClassVar[int]
     kind: ClassVar[Any]
     turns: ClassVar[dict[str, str]]
-    finish: Any     # fields of rows from their sums
+    finish: Any     # computes fields of rows from their sums
 
     def allocate(self, points: int) -> None:
         super().allocate(points)
@@ -170,7 +170,7 @@ class OverFaces(Corrected):
         self.more = np.empty((self.around.rows, self.columns))
 
     def exchange(self, less: np.ndarray) -> tuple[Any, np.ndarray]:
-        _, records = super().exchange(less)     # which refuses neighbours in a line
+        _, records = super().exchange(less)     # raises an error if neighbours lie in a line
         around, method = self.around, self.method
         given = method.weight, method.m
         self.threads(sound, around.rows, method.eos, around.rho, around.T, records)
@@ -184,7 +184,7 @@ class OverFaces(Corrected):
 
 
 def turned(how: str, axis: int) -> float:
-    """Sign of a number seen in a mirror across an axis; 1 without a mirror."""
+    """Sign of a field in a mirror across an axis; 1 without a mirror (axis = -1)."""
     return (-1.0)**(how.count("xy"[axis]) + how.count("-")) if axis >= 0 else 1.0
 
 
@@ -230,14 +230,14 @@ def _reproduce(first, last, weight, m, M, sums, records):
 
 @formula
 def solved(m2, B, r, x, y):
-    """H^-1 (r, x, y), with the inverse of m2, and B and A of Eqs 12, 13."""
+    """H^-1 (r, x, y), from the inverse of m2 and (B, A) of Eqs 12, 13."""
     s = B[2]*(r + B[0]*x + B[1]*y)
     return s, m2[0]*x + m2[1]*y + B[0]*s, m2[1]*x + m2[2]*y + B[1]*s
 
 
 @jit
 def _reconstruct(first, last, sums, records):
-    """B and gradients of what is reconstructed."""
+    """B, and gradients of vx, vy, P for the reconstruction."""
     for i in range(first, last):
         a, (xx, xy, yy, ux, uy, vx, vy, Px, Py) = records[i], sums[i]
         det = xx*yy - xy*xy

@@ -1,10 +1,10 @@
-"""Classic particles with a Riemann problem of low dissipation in place of P    [Zhang, Hu & Adams 2017]
+"""Classic SPH whose pressures are those of a low-dissipation Riemann problem    [Zhang, Hu & Adams 2017]
 
     P_i + P_j + beta rho c u,    beta = min(3 u/c, 1)
 
-where a pair nears with u > 0, rho and c are means of both. The star velocity is for densities by continuity;
-here they are summed. Without heat in the paper, each of a pair has half of the work, as in `Direct`, whose
-friction and heat this has, for constant viscosity.
+replaces P_i + P_j in a pair that approaches at speed u > 0; rho and c are means of both. The star velocity is
+left out: it serves densities by continuity, which here are summed. The paper has no heat; here each particle
+gets half of a pair's work, as in `Direct`, whose friction and heat are used, for constant viscosity.
 """
 from typing import Any, NamedTuple
 
@@ -18,7 +18,7 @@ State = np.dtype([*DirectState.descr, ("c", "f8")])
 
 
 class LowDissipation(NamedTuple):
-    """As `DirectFluxes`, with P* = {P} + beta rho c u/2 """
+    """As `DirectFluxes`, with P* = (P_i + P_j)/2 + beta rho c u/2."""
 
 
 @pair_term(LowDissipation, 3)
@@ -34,7 +34,7 @@ def _(term, a, b, ab):
 
 
 class LowDissipationSums(Direct):
-    """The sums with it."""
+    """Sums of classic SPH with the term `LowDissipation`."""
 
     def __init__(self, method: Any, n: int, threads: Threads):
         check_along_pairs(method.law)

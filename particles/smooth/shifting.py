@@ -1,4 +1,4 @@
-"""Smooth particles with density by continuity, its diffusion, and places that are shifted: delta+-SPH.
+"""Delta-plus-SPH: density by continuity with diffusion, and particles that are shifted.
 
 Particles move with v + d. The shifting velocity d and the diffusion of densities are, with 2h the range,
 
@@ -6,16 +6,16 @@ Particles move with v + d. The shifting velocity d and the diffusion of densitie
     delta h c sum_j V_j psi.grad W, x = x_i - x_j
     psi = 2 (rho_i - rho_j - (grad rho_i + grad rho_j).x/2) x/x^2    [Antuono et al. 2010]
 
-U, in the papers the largest speed that is expected, is the largest there is, seen from the mean of all: Ma c0
-= U, and CFL drops out of Sun 2017's step over dt. Pairs push by V_i V_j (P_i + P_j); friction and heat are
-those of `Direct`.
+U is the largest speed relative to the mean velocity; in the papers it is the largest expected speed. As Ma c0
+= U, CFL cancels in Sun 2017's shift over dt. The force of a pair is V_i V_j (P_i + P_j) grad W; friction and
+heat are those of `Direct`.
 
-Our own: P(rho, T) and its c stand for c0^2 (rho - rho0) and c0, and e is a row. In Sun 2019 d carries density
-and momentum while masses stay, which neither conserves momentum nor is Galilean invariant. Here masses
-follow, as in Antuono et al. 2021, but without diffusion of theirs, and energy goes with them: with g = V_i
-V_j grad W particle i gains (rho_i q_i d_i + rho_j q_j d_j).g of q = 1, v, e + v^2/2. All three are closed
-pair by pair; the height to which d lifts mass is not paid for. Continuity is that of Sun 2019, whose volumes
-need not fill the box.
+Differences from the papers: P(rho, T) and its c replace c0^2 (rho - rho0) and c0, and states have a row e.
+In Sun 2019 d carries density and momentum while masses are constant, which neither conserves momentum nor is
+Galilean invariant. Here d carries mass, as in Antuono et al. 2021 but without diffusion of mass, and energy:
+with g = V_i V_j grad W particle i gains (rho_i q_i d_i + rho_j q_j d_j).g of q = 1, v, e + v^2/2. Each pair
+conserves all three; the potential energy of mass that d lifts is not counted. The continuity equation is that
+of Sun 2019, whose volumes need not fill the box.
 """
 from typing import Any, ClassVar, NamedTuple
 
@@ -44,7 +44,7 @@ class Slopes(NamedTuple):
 
 
 class Shifting(NamedTuple):
-    """Acceleration, heating, d rho/dt, nothing, and d ln m/dt; half : h of the papers."""
+    """Acceleration, heating, d rho/dt, zero, d ln m/dt; half : h of the papers, half of the range."""
     half: float
 
 
@@ -77,7 +77,7 @@ def _(term, a, b, ab):
 
 
 class DeltaPlus(Led):
-    """The sums with them; V_i = m_i/rho_i."""
+    """Sums of delta-plus-SPH; V_i = m_i/rho_i."""
     of_state: ClassVar[tuple[str, ...]] = (*Led.of_state, "rho", "m")
     numbers = np.dtype([*DirectState.descr,
                         *((name, "f8") for name in "V rho P e c per_w dx dy gx gy".split())])
@@ -117,7 +117,7 @@ class DeltaPlus(Led):
         records["V"][:self.n] = self.V
         for _, parent, first, last in around.blocks:
             records["V"][first:last] = records["V"][parent]
-        # by one thread: compiled, the first row of a range differs from others in its last digit
+        # one thread: in compiled code the first row of a range differs from others in its last digit
         _more(0, len(around.x), method.weight, method.eos, method.m, around.rho, around.T, less, records)
         self.threads(sweep, self.n, Uneven(method.weight), records, around.pairs, self.uneven)
         self.threads(_shift, self.n, self.U, method.weight.h, self.uneven, records)
@@ -143,7 +143,7 @@ def _more(first, last, weight, eos, m, rho, T, less, records):
 
 @jit
 def _shift(first, last, U, width, sums, records):
-    """d, and gradients of rho that are exact on linear fields, or none where neighbours lie in a line."""
+    """d, and gradients of rho, exact on linear fields, but zero where neighbours lie in a line."""
     for i in range(first, last):
         a, (sx, sy, xx, xy, yy, rx, ry) = records[i], sums[i]
         f = U*width*min(1.0, FASTEST/max(width*np.sqrt(sx*sx + sy*sy), 1e-300))

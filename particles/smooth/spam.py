@@ -1,6 +1,6 @@
 """Smooth-particle applied mechanics as printed [KHP95, Sec. II], and its named variants.
 
-Three sums: density; gradients of v and T; divergence of P/rho^2 and Q/rho^2. The variants are objects in
+Three sums: density; gradients of v and T; divergence of P/rho^2 and Q/rho^2. A variant puts another object in
 place of the printed choice: `ArithmeticGradients()` for the mean density, `Direct` for `Nested` transport,
 `LessStatic(...)` for the whole pressure, another weight.
 """
@@ -21,10 +21,10 @@ from particles.weights import check_unit
 
 
 class LessStatic(NamedTuple):
-    """Subtract `fraction` of the static pressure P0 - rho0 g y from P, and its support from gravity.
+    """Subtract `fraction` of the static pressure P0 - rho0 g y from P, and its force from gravity.
 
-    Less is left of the background pressure that holds particles on a lattice [KHP95, Sec. IV]; fraction = 0
-    is the printed scheme. The part left out works by the gradients' div v: energy is not conserved exactly.
+    This lowers the background pressure, which holds particles on a lattice [KHP95, Sec. IV]; fraction = 0 is
+    the printed scheme. The subtracted part works by div v of the second sum: energy is not exactly conserved.
     """
     fraction: float
     P0: float
@@ -37,7 +37,7 @@ class Spam:
 
     weight : of `particles.weights`, as ``Lucy.of(h=3)``. eos, law : of `continuum.fluid`. walls : tuple of
     walls. box : (width, height), centred on the origin. g : gravity, downwards. m : mass of every particle.
-    gradients, transport, static : printed unless given. skin : of the neighbour list, in sigma.
+    gradients, transport, static : by default as printed. skin : of the neighbour lists, in sigma.
     """
     weight: Any
     eos: Any
@@ -72,18 +72,18 @@ class Spam:
                              f"{self.law}: take Nested, or ConstEta")
 
     def state(self, x: np.ndarray, rho: Any, v: np.ndarray, T: np.ndarray) -> np.ndarray:
-        """(rows, n) of places (n, 2), velocities (n, 2), temperatures (n,) at densities rho."""
+        """State (rows, n) from places (n, 2), velocities (n, 2), temperatures (n,), densities rho."""
         state = np.stack([*x.T, *v.T, energy(self.eos, rho, T)*np.ones(len(x))])
         return self.transport.complete(state, rho, self.m)
 
     def fields(self, state: np.ndarray) -> Fields:
-        """Of the particles, (n,) each, in the order of the state; density by the method's own sum."""
+        """Fields of the particles, (n,) each, in the order of the state; density by the method's own sum."""
         sums, _, ids = self.look(state)
         rho, T = (q[:sums.n][np.argsort(ids)] for q in (sums.around.rho, sums.around.T))
         return Fields(state[:2].T.copy(), state[2:4].T.copy(), rho, T, self.m*sums.shares(state)/rho)
 
     def look(self, state: np.ndarray) -> tuple[Nested | Direct, np.ndarray, np.ndarray]:
-        """(sums, state, ids) with new lists, in their order: densities, motion and images are up to date."""
+        """(sums, state, ids) in the order of new lists; densities, velocities and images are up to date."""
         n = state.shape[1]
         sums, ordered, ids = self.start(n, Threads(1)), state.copy(), np.arange(n)
         sums.around.relist(ordered, ids, 0.0)
@@ -91,7 +91,7 @@ class Spam:
         return sums, ordered, ids
 
     def start(self, n: int, threads: Threads) -> Nested | Direct:
-        """The sums of n particles. ValueError: there are none, or the weight is too wide for the box."""
+        """The sums of n particles. Raises ValueError: n < 1, or the weight is too wide for the box."""
         if n < 1:
             raise ValueError(f"there are no particles (n = {n}): a run needs at least one")
         return self.transport(self, n, threads)

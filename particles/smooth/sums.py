@@ -1,4 +1,4 @@
-"""The sums of `spam`: densities, gradients, stress and heat flux over pairs, compiled    [KHP95, Sec. II]"""
+"""Compiled pair sums of smooth particles: density, gradients, stress and heat flux    [KHP95, Sec. II]"""
 from abc import ABC, abstractmethod
 from typing import Any, ClassVar
 
@@ -27,11 +27,11 @@ DirectState = np.dtype([(name, "f8") for name in ("x", "y", "vx", "vy", "T", "P_
 
 
 class SmoothSums(Listed, ABC):
-    """What both kinds of transport share: arrays, density sum, equations of state, for the time loop.
+    """Base class of the sums of every transport: arrays, density sum, equation of state, for the time loop.
 
-    places : rows of a state that are positions; `velocity` : their rates, for integrators that step them
-    apart. symbol : of what stands for the wave number squared in `particles.limits.Symbols`.
-    of_state : names of its rows.
+    places : number of leading rows of a state that are positions; `velocity` : their rates, for integrators
+    that step positions separately. symbol : field of `particles.limits.Symbols` that replaces the squared
+    wave number. of_state : names of the rows of a state.
     """
     places = 2
     of_state: ClassVar[tuple[str, ...]] = ("x", "y", "vx", "vy", "e")
@@ -45,19 +45,19 @@ class SmoothSums(Listed, ABC):
 
     @classmethod
     def complete(cls, state: np.ndarray, rho: Any, m: float) -> np.ndarray:
-        """All rows of a state from the first five; density and mass of particles."""
+        """All rows of a state from the first five, and from density and mass of the particles."""
         return state
 
     def shares(self, state: np.ndarray) -> Any:
-        """Masses of the particles over that of the method."""
+        """Masses of the particles over the mass m of the method."""
         return 1.0
 
     def place(self, state: np.ndarray) -> None:
-        """Positions and densities."""
+        """Set positions and densities."""
         self.around.place(state, self.method.m)
 
     def densities(self, state: np.ndarray) -> None:
-        """First sum, equations of state, motion and pressure of the images."""
+        """First sum, equation of state, and then velocities, temperatures and pressures of images."""
         around, method = self.around, self.method
         self.place(state)
         if len(self.less) != len(around.x):
@@ -71,10 +71,10 @@ class SmoothSums(Listed, ABC):
 
     @abstractmethod
     def exchange(self, less: np.ndarray) -> tuple[Any, np.ndarray]:
-        """Term and records of the third sum, from what `prepare` made, with the pressures `less`."""
+        """Term and records of the third sum for the pressures `less`; call after `prepare`."""
 
     def prepare(self, state: np.ndarray) -> None:
-        """What the third sum needs."""
+        """Compute what the third sum needs at a state."""
         self.look_at(state)
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
@@ -88,7 +88,7 @@ class SmoothSums(Listed, ABC):
         return state[2:4]
 
     def look_at(self, state: np.ndarray) -> None:
-        """Densities and gradients of a state, for whatever is measured on it."""
+        """Compute densities and gradients of a state, for measured quantities."""
         self.densities(state)
         self.gradients()
 
@@ -97,11 +97,11 @@ class SmoothSums(Listed, ABC):
         return unphysical(method.eos, method.m/rho, rho, state[4], ids) or self.outran(state)
 
     def allocate(self, points: int) -> None:
-        """Arrays over all points, whose number changes with the lists."""
+        """Allocate arrays over all points, whose number changes with the lists."""
         self.less, self.moving = np.empty(points), np.empty(points, Moving)
 
     def gradients(self) -> None:
-        """Second sum: self.slopes (rows, 8)."""
+        """Second sum: gradients in self.slopes (rows, 8)."""
         around, kind = self.around, self.method.gradients
         self.threads(_moving, len(around.x), kind, around.vx, around.vy, around.T, around.rho, self.moving)
         self.threads(sweep, around.rows, kind, self.moving, around.pairs, self.slopes)
@@ -113,7 +113,7 @@ class SmoothSums(Listed, ABC):
 
 
 class Nested(SmoothSums):
-    """Stress and heat flux from gradients of the second sum, divergence in the third    [KHP95, Sec. II]"""
+    """Stress and heat flux from the second sum's gradients, divergence by the third    [KHP95, Sec. II]"""
     symbol = "nested"
 
     def allocate(self, points: int) -> None:
@@ -132,7 +132,7 @@ class Nested(SmoothSums):
 
 
 class Direct(SmoothSums):
-    """Viscosity and conduction along each pair: no gradients, unless the static part needs div v."""
+    """Viscosity and conduction along each pair: no gradients, unless `LessStatic` needs div v."""
     symbol = "direct"
 
     def allocate(self, points: int) -> None:
@@ -152,7 +152,7 @@ class Direct(SmoothSums):
 
 
 def check_along_pairs(law: Any) -> None:
-    """Refuse a viscosity that varies where `Direct` has all of the friction: ValueError."""
+    """Check that viscosity is constant, which friction along pairs alone needs. Raises ValueError."""
     if not constant_viscosity(law):
         raise ValueError("friction along pairs lacks a part of the stress where viscosity varies, as by "
                          f"{law}: take ConstEta, or a transport with corrected gradients, as CRKSPH")
@@ -171,7 +171,7 @@ def _thermal(first, last, n, state, eos, static, g, y, rho, vx, vy, T, P, less):
 
 @formula
 def _static(static, g, y):
-    """The part of the static pressure that is left out."""
+    """The part of the static pressure that is subtracted."""
     return static.fraction*(static.P0 - static.rho0*g*y)
 
 
@@ -236,7 +236,7 @@ def sound(first, last, eos, rho, T, records):
 
 @jit
 def _rates(first, last, state, pull, rho, slopes, g, static, out):
-    """Rates of the particles, with support and work of what pressure the pair sums leave out."""
+    """Rates of the particles, with force and work of the pressure that is subtracted in the pair sums."""
     for i in range(first, last):
         out[0, i], out[1, i] = state[2, i], state[3, i]
         out[2, i], out[3, i], out[4, i] = pull[i, 0], pull[i, 1] - g, pull[i, 2] + pull[i, 4]

@@ -1,20 +1,20 @@
-"""Smooth particles that a background pressure moves    [Adami, Hu & Adams 2013]
+"""Smooth particles with a transport velocity by a background pressure    [Adami, Hu & Adams 2013]
 
-Density is summed, V = m/rho. Particles move with v~ = v + d, and push with the pressure less P0, as
+Density is summed, V = m/rho. Particles move with v~ = v + d, and P is taken relative to P0:
 
     d_i = -(tau/m) P0 sum_j (V_i^2 + V_j^2) grad W                                        [Eq. 13]
     m v_i' = sum_j (V_i^2 + V_j^2) (-P~ grad W + (A_i + A_j)/2 . grad W), A = rho v d     [Eq. 8]
     P~ = (rho_j P_i + rho_i P_j)/(rho_i + rho_j)                                          [Eq. 7]
 
-P0 = rho0 c0^2/gamma, the paper's, is of our gas the pressure at the mean state. `LessStatic` leaves out of P,
-with fraction 1, all of it, as the paper's P = c0^2 (rho - rho0) does; its work goes by gradients of v then,
-so that energy is not closed. tau is half of the paper's step, as in its leap from v to v~ [Eq. 15], and the
-step its limit of sound, 0.25 a/c of each particle, whatever step is taken. Friction and heat are those of
-`Direct`, for Adami's harmonic mean. Each of a pair has half of the work of its forces. Walls of the paper
-extrapolate P by gravity; images copy it.
+The paper's P0 = rho0 c0^2/gamma is the pressure of our gas at its mean state. `LessStatic` with fraction 1
+subtracts all of P0, as the paper's P = c0^2 (rho - rho0) does; its work is then by gradients of v, so that
+energy is not conserved exactly. tau is half of the paper's time step, as in its kick from v to v~ [Eq. 15];
+this step is its acoustic limit, 0.25 a/c of each particle, whatever dt is. Friction and heat are those of
+`Direct`, in place of Adami's harmonic mean. Each particle of a pair gets half of the work of its forces. The
+paper's walls extrapolate P by gravity; here images copy it.
 
-As in the paper v div(rho d) is left out of A: rates are Galilean invariant only where A is none. There is no
-A of energy: heat is carried by v~; e d without the mass would heat by e div d, and e, unlike v, is not small.
+As in the paper, forces by A lack v div(rho d): rates are Galilean invariant only where A is zero. Energy has
+no such term: v~ carries heat. A flux e d without mass would heat by e div d, and e, unlike v, is not small.
 """
 from typing import Any, NamedTuple
 
@@ -48,7 +48,7 @@ def _(term, a, b, ab):
     x, y, u, v, f = a.x - b.x, a.y - b.y, a.vx - b.vx, a.vy - b.vy, a.irho**2 + b.irho**2
     # two particles in one place exert no force on each other
     F = (x*ab.wx + y*ab.wy)/max(x*x + y*y, 1e-300)*a.irho*b.irho
-    # rho_j P_i + rho_i P_j over the sum, of P/rho^2
+    # P~ of Eq. 7, written in P/rho^2
     p, drag = f*(a.P_rho2/a.irho + b.P_rho2/b.irho)/(a.irho + b.irho), (a.eta + b.eta)*F
     own, other = 0.5*f*(a.dx*ab.wx + a.dy*ab.wy)/a.irho, 0.5*f*(b.dx*ab.wx + b.dy*ab.wy)/b.irho
     fx = drag*u - p*ab.wx + own*a.vx + other*b.vx
@@ -57,7 +57,7 @@ def _(term, a, b, ab):
 
 
 class TransportVelocity(Led):
-    """The sums with them."""
+    """Sums with the terms `Background` and `Transported`."""
     numbers = np.dtype([*DirectState.descr, *((name, "f8") for name in ("c", "dx", "dy"))])
 
     def __init__(self, method: Any, n: int, threads: Threads):
@@ -78,7 +78,7 @@ class TransportVelocity(Led):
 
 @jit
 def _carry(first, last, P0, root_m, even, records):
-    """d, a = sqrt(m/rho)."""
+    """Transport velocity d of Eq. 13, with the spacing a = sqrt(m/rho)."""
     for i in range(first, last):
         a = records[i]
         f = -COURANT*root_m*np.sqrt(a.irho)/a.c*P0

@@ -1,7 +1,7 @@
-"""Walls: what is beyond the fluid, as particles. The pair loops know nothing of them.
+"""Walls: they put ghosts or fixed particles behind the fluid, so that pair loops know nothing of walls.
 
 A wall is a NamedTuple. It makes ghosts, each the image of a parent (a fluid particle, a fixed one or a ghost
-of an earlier wall), and keeps the particles inside. One kind of wall a file.
+of an earlier wall), and keeps the particles inside.
 """
 from math import inf, isclose
 
@@ -10,12 +10,12 @@ from continuum.jit import generic, jit
 
 @generic
 def parents(wall, x, y, reach):
-    """Indices of the points within `reach` of the wall, which need an image. Walls of none: no formula."""
+    """Indices of points within `reach` of the wall, which need an image. Walls without images: no formula."""
 
 
 @generic
 def image_point(wall, x, y):
-    """(x, y) of the image."""
+    """(x, y) of the image of a point at (x, y)."""
 
 
 @generic
@@ -30,7 +30,7 @@ def image_pressure(wall, own, copied):
 
 @generic
 def image_flux(wall, a, rho):
-    """Turn the stress and heat flux over rho^2 that the image `a` has copied. Where both stay: no formula."""
+    """Mirror the stress and heat flux over rho^2 copied to image `a`. Walls that keep both: no formula."""
 
 
 @generic
@@ -40,27 +40,27 @@ def mirrored(wall):
 
 @generic
 def confine(wall, state):
-    """Reflect elastically what has crossed the wall, rows (x, y, vx, vy, e); their number."""
+    """Elastically reflect particles beyond the wall; state rows (x, y, vx, vy, e). Returns their number."""
 
 
 @generic
 def fixed_points(wall, width, height):
-    """(x, y, T), each (F,), of the particles that the wall holds; walls of images give no formula."""
+    """(x, y, T), each (F,), of the fixed particles of the wall. Walls with images: no formula."""
 
 
 def check_ends(walls: tuple, box: tuple[float, float]) -> None:
-    """Refuse walls that are not at ends of a box, two at one end, and a periodic end without its partner.
+    """Check that walls are at ends of the box, one at most at each, and that periodic ends come in pairs.
 
-    An end without any wall is open. ValueError: names the wall.
+    An end without a wall is open. Raises ValueError, also for a T that is not positive and finite.
     """
     ends: dict[tuple[int, bool], bool] = {}
     for wall in walls:
         plate = getattr(wall, "mirror", wall)
         at, axis = getattr(plate, "at", getattr(plate, "near", None)), getattr(plate, "axis", 1)
         if at is None:
-            continue        # a kind of one's own
+            continue        # a user's own kind of wall
         T = getattr(plate, "T", 1.0)
-        if not 0 < T < inf and (plate is wall or T == T):       # nan: heat is given in its place
+        if not 0 < T < inf and (plate is wall or T == T):       # nan: a heat flux is given instead
             raise ValueError(f"the temperature of {wall} must be positive and finite")
         if not isclose(abs(at), box[axis]/2, rel_tol=1e-9) or (axis, at > 0) in ends:
             raise ValueError(f"{wall} is not at an end of the box {box[0]:g} x {box[1]:g}, or another wall "
@@ -74,7 +74,7 @@ def check_ends(walls: tuple, box: tuple[float, float]) -> None:
 
 @jit
 def place_images(first, last, wall, parent, x, y):
-    """Positions of ghosts first..last of one wall."""
+    """Set positions of ghosts first..last of one wall."""
     for g in range(first, last):
         p = parent[g - first]
         x[g], y[g] = image_point(wall, x[p], y[p])
@@ -82,7 +82,7 @@ def place_images(first, last, wall, parent, x, y):
 
 @jit
 def move_images(first, last, wall, parent, x, y, vx, vy, T):
-    """Velocities and temperatures of ghosts first..last of one wall."""
+    """Set velocities and temperatures of ghosts first..last of one wall."""
     for g in range(first, last):
         p = parent[g - first]
         vx[g], vy[g], T[g] = image_motion(wall, x[g], y[g], vx[p], vy[p], T[p])

@@ -1,4 +1,4 @@
-"""Rows of fixed particles behind a plate [KHP95, Fig. 2], with a leak-proof elastic wall in the plate."""
+"""Rows of fixed particles behind a plate [KHP95, Fig. 2], with an elastic wall in the plate."""
 from typing import NamedTuple
 
 import numpy as np
@@ -8,7 +8,7 @@ from particles.walls.mirror import _reflect
 
 
 class FixedRows(NamedTuple):
-    """`rows` rows of particles at rest behind a plate across y, spaced by `spacing` from half a spacing on.
+    """`rows` rows of particles at rest behind a plate across y, `spacing` apart, from half a spacing on.
     Their temperature is extrapolated linearly from the plate: T + slope (y - at)."""
     at: float
     inner: float
@@ -19,8 +19,8 @@ class FixedRows(NamedTuple):
 
 
 def fixed_plates(height: float, T_hot: float, T_cold: float, rows: int = 6, spacing: float = 1.0) -> tuple:
-    """Hot plate below, cold one above; their rows go on with the conduction profile. Two ranges are six rows.
-    Raises ValueError: the profile reaches T = 0 within the rows above the cold plate."""
+    """Hot plate below, cold plate above; their rows continue the conduction profile. Six rows are two ranges.
+    Raises ValueError: bad rows or spacing, or the profile reaches T = 0 in the rows above the cold plate."""
     if not (rows == int(rows) and rows >= 1 and spacing > 0):
         raise ValueError(f"behind a plate are whole rows, at least one, and a spacing above 0, got rows = "
                          f"{rows}, spacing = {spacing}: KHP95 have 6 rows, 1 apart")
@@ -37,7 +37,7 @@ def fixed_plates(height: float, T_hot: float, T_cold: float, rows: int = 6, spac
 @fixed_points.of(FixedRows)
 def _(wall, width, height):
     columns = round(width/wall.spacing)
-    x = (np.arange(columns) + 0.5)*width/columns - width/2  # so that they fit a periodic box of any width
+    x = (np.arange(columns) + 0.5)*width/columns - width/2  # stretched to fit a periodic box of any width
     y = wall.at - wall.inner*(np.arange(wall.rows) + 0.5)*wall.spacing
     x, y = (q.ravel() for q in np.meshgrid(x, y))
     return x, y, wall.T + wall.slope*(y - wall.at)

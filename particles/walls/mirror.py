@@ -1,4 +1,4 @@
-"""Mirror images behind a rigid plate, with an elastic wall in it [KHP95, Fig. 3]; sides of other kinds."""
+"""Mirror images behind rigid plates with elastic reflection [KHP95, Fig. 3]; sliding, slip, heated sides."""
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -16,7 +16,7 @@ class Odd(NamedTuple):
 
 
 class Copied(NamedTuple):
-    """The image has the pressure of its particle, which KHP95 says of its grid (Sec. IV)."""
+    """The image has the pressure of its particle, as KHP95 say of their grid (Sec. IV)."""
 
 
 class Own(NamedTuple):
@@ -36,7 +36,7 @@ class Mirror(NamedTuple):
 
 
 def plates(height: float, T_hot: float, T_cold: float, rule=AtWall(), pressure=Copied()) -> tuple:  # noqa: B008
-    """Hot plate below at -height/2, cold one above."""
+    """Hot plate below at -height/2, cold plate above at height/2."""
     return (Mirror(1, -height/2, 1.0, T_hot, 0.0, rule, pressure),
             Mirror(1, height/2, -1.0, T_cold, 0.0, rule, pressure))
 
@@ -49,13 +49,12 @@ def sides(width: float, T_mean: float, slope: float, rule=AtWall(), pressure=Cop
 
 @generic
 def velocity_and_temperature(rule, wall_T, along, across, T):
-    """Of the image, by one of the rules: velocity along the plate and across it, seen from it; temperature.
-    """
+    """Velocity of the image along and across the plate, relative to the plate, and temperature, by a rule."""
 
 
 @generic
 def choose(pressure, own, copied):
-    """One of the two pressures."""
+    """The image's own pressure, or the copied one."""
 
 
 velocity_and_temperature.of(AtWall)(lambda rule, wall_T, along, across, T: (0.0, 0.0, wall_T))
@@ -104,12 +103,12 @@ def _reflect(q, v, at, inner):
 
 
 class OneSide(NamedTuple):
-    """A mirror whose rule holds seen from a plate that slides along itself with velocity v.
+    """A mirror at a side that slides along itself with velocity v; its rule holds in the frame of the side.
 
-    slip : images keep the velocity along the side, that across it is reversed. q, k : where the mirror's T is
-    nan heat q passes into a fluid of conductivity k; images are as warm as their particles, and by 2 depth
-    q/k warmer. Where nothing holds the fluid, or a flux is given, the copied stress or heat flux is mirrored,
-    too: pairs through the side then carry along it, or through it, what is wanted, to round-off.
+    slip : images keep the velocity along the side and reverse that across it. q, k : where the mirror's T is
+    nan, heat q passes into a fluid of conductivity k, and images are warmer than their particles by 2 depth
+    q/k. With slip the copied shear stress is mirrored, with a given q the copied heat flux: pairs through the
+    side then transfer no momentum along it, or the heat q, to round-off.
     """
     mirror: Mirror
     v: float

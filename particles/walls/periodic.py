@@ -7,20 +7,20 @@ from particles.walls import confine, image_motion, image_point, image_pressure, 
 
 
 class Shift(NamedTuple):
-    """One side of a box periodic along `axis` (0: x, 1: y): images of points at `near`, shifted by `by`."""
+    """One side of a box periodic along `axis` (0: x, 1: y): images of points near `near`, shifted by `by`."""
     axis: int
     near: float
     by: float
 
 
 def periodic(width: float, axis: int = 0) -> tuple[Shift, Shift]:
-    """Both sides of the box -width/2 <= x < width/2, or of y with axis = 1."""
+    """Both sides of a periodic box -width/2 <= x < width/2; in y with axis = 1."""
     return Shift(axis, -width/2, width), Shift(axis, width/2, -width)
 
 
 @parents.of(Shift)
 def _(wall, x, y, reach):
-    # a ghost made by the other side is outside of the box [-width/2, width/2) and needs no image
+    # a ghost made by the other side is outside the box [-width/2, width/2) and needs no image
     q, half = (x if wall.axis == 0 else y), abs(wall.near)
     return np.flatnonzero((np.abs(q - wall.near) <= reach) & (q >= -half) & (q < half))
 
@@ -37,7 +37,7 @@ confine.of(Shift)(lambda wall, state: 0)
 
 
 def wrap(walls: tuple, state: np.ndarray) -> None:
-    """Bring particles that have left through a periodic side back in, in place; state rows (x, y, ...)."""
+    """Wrap particles that have left through a periodic side into the box, in place; rows (x, y, ...)."""
     for wall in walls:
         if isinstance(wall, Shift) and wall.by > 0:
             q = state[wall.axis]
