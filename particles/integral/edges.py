@@ -143,7 +143,7 @@ NONE_BEYOND = Beyond(i=NOWHERE, parent=NOWHERE, S=np.empty((0, 2)), k=np.empty(0
 
 
 def fastest(edges: Edges, beyond: Beyond) -> tuple[float, float]:
-    """`Edges.fastest` between plates: images have pressure as their parents, velocity and T opposite."""
+    """`Edges.fastest` between plates: images have their parents' pressure, and opposite velocity and T."""
     def seen(q: np.ndarray, sign: float) -> sparse.csr_array:
         own, image = (sparse.csr_array((q, (beyond.i, to)), shape=(edges.n, edges.n))
                       for to in (beyond.i, beyond.parent))
@@ -163,7 +163,7 @@ def symmetric(edges: Edges, a: float) -> Edges:
 
 
 def check_between(x: np.ndarray, height: float) -> None:
-    """Raise ValueError unless all points (n, 2) are between the plates, apart from their mirror images."""
+    """Raise ValueError unless all points (n, 2) lie strictly between the plates."""
     out = np.flatnonzero(~(np.abs(x[:, 1]) < height/2*(1 - 1e-9)))
     if len(out):
         i = out[0]

@@ -51,7 +51,7 @@ class FaceMaker:
         """Make pairs and faces of points at state[:2] with volumes V (n,); solution (6, n) in place."""
         around, n, pairs = self.around, self.n, self.around.pairs
         around.place(state, 1.0)
-        if self.lists_made != around.lists_made:        # an equal number may have other origins
+        if self.lists_made != around.lists_made:        # as many ghosts may have other origins
             self.lists_made, self.ghosts = around.lists_made, ghosts_of(around)
             self.metric, self.potential = (np.zeros(len(around.x), kind) for kind in (Metric, Potential))
         if self._store.shape[1] != len(pairs.near):

@@ -31,7 +31,7 @@ def opened(edges: Stored) -> np.ndarray:
 
 
 class OwnPressure(Stage):
-    """Sets P of each row's point, which `Pressure` subtracts twice, and its force on the open area: whole
+    """Sets each row's own P, which `Pressure` subtracts twice, and adds its force on the open area: whole
     pressures would leave a rounding in every row, of one sign at all steps. open (n, 2) : of `opened`."""
 
     def __init__(self, eos: Any, open: np.ndarray, n: int, threads: Threads):
