@@ -1,1 +1,1 @@
-"""Discretized integral hydrodynamics: points, edges and the equations over them    [RR98]"""
+"""Discretized integral hydrodynamics: points, edges, and exchange over edges    [RR98]"""

@@ -1,24 +1,24 @@
-"""Held points: frozen ones form a rigid body, rows of fixed ones a wall    [RR98, Sec. IV]
+"""Held points, of prescribed velocity and temperature: they form rigid bodies and walls    [RR98, Sec. IV]
 
-A held point exchanges over its edges as all points do; its velocity and temperature are given, its density
-evolves. What the edges carry to it is the force on the body and its heat. A body of lattice points has a
-staircase for a surface; points placed on the surface give the true one.
+A held point exchanges over its edges as all points do; its density evolves. The momentum and heat that edges
+bring to it are the force on the body and its heat. The surface of a body of lattice points is a staircase;
+points placed on the true surface avoid that.
 
-The flux of eta lap v through a surface is the traction on a body that does not turn. One that turns with
-Omega feels a torque -2 eta Omega area besides, from edges inside: take the torque on all of its points.
+The flux of eta lap v through a surface is the traction on a body that does not rotate. A body that rotates
+at Omega feels an additional torque -2 eta Omega area, from edges inside: sum the torque over all its points.
 """
 from typing import NamedTuple
 
 import numpy as np
 
-#: spacings between a surface and points off it: nearer ones would cut its edges or take short steps
+#: least distance of points from a surface, in spacings: nearer ones cut its edges or need short steps
 CLEAR = 0.6
 
 
 class Held(NamedTuple):
-    """Points `which` (m,) held at v (m, 2) and T (m,); T nan: they get `heat` (m,), per time, and no other.
+    """Points of indices `which` (m,), held at velocity v (m, 2) and temperature T (m,).
 
-    body: its number.
+    T nan : the energy evolves, and only `heat` (m,) per time comes from outside. body (m,) : its number.
     """
     which: np.ndarray
     v: np.ndarray
@@ -29,7 +29,7 @@ class Held(NamedTuple):
 
 def held(which: np.ndarray, v: tuple[float, float] = (0.0, 0.0), T: float = np.nan,
          heat: float = 0.0) -> Held:
-    """Points of one velocity and temperature. ValueError: there are none, or one twice, or T <= 0."""
+    """Hold points at one velocity and temperature. Raises ValueError: no points, a point twice, T <= 0."""
     which, velocity = np.asarray(which), np.asarray(v, float)
     if which.ndim != 1 or (len(which) and which.dtype.kind not in "iu") or (which < 0).any():
         raise ValueError(f"held points are named by whole numbers from 0 on, got {which}")
@@ -46,13 +46,13 @@ def held(which: np.ndarray, v: tuple[float, float] = (0.0, 0.0), T: float = np.n
 
 
 def together(*bodies: Held) -> Held:
-    """Several bodies, such as two plates of a channel; they do not rub against each other."""
+    """Several bodies, such as the two plates of a channel, without friction between them."""
     which, v, T, _, heat = (np.concatenate(column) for column in zip(*bodies, strict=True))
     return Held(which, v, T, np.repeat(np.arange(len(bodies)), [len(body.which) for body in bodies]), heat)
 
 
 class Rows(NamedTuple):
-    """Numbers of the points on each side, but for those in corners; empty where there is no side."""
+    """Indices of the points on each side, without those in corners; empty where there is no side."""
     left: np.ndarray
     right: np.ndarray
     bottom: np.ndarray
@@ -62,10 +62,10 @@ class Rows(NamedTuple):
 
 def with_sides(inner: np.ndarray, size: tuple[float, float],
                closed: tuple[bool, bool] = (False, True)) -> tuple[np.ndarray, Rows]:
-    """Points (n, 2) with rows a spacing apart on the sides of a box, and which these are.
+    """Points (n, 2): rows of unit spacing on the sides of a box, then `inner`; and the indices of the rows.
 
-    closed : is there a side across x, across y? For triangles that end there, `triangulation.between`.
-    Corners are numbered lower left, lower right, upper left, upper right.
+    closed : whether x, y end at sides, not periodically. Triangulate with `triangulation.between`.
+    The order of corners is lower left, lower right, upper left, upper right.
     """
     along = [np.arange(1.0, n) - n/2 if shut else np.arange(n) + 0.5 - n/2
              for n, shut in zip(map(round, size), closed)]
@@ -79,13 +79,13 @@ def with_sides(inner: np.ndarray, size: tuple[float, float],
 
 
 def on_circle(radius: float) -> np.ndarray:
-    """Points (n, 2) about one apart on a circle."""
+    """Points (n, 2) at about unit spacing on a circle around the origin."""
     n = round(2*np.pi*radius)
     angle = 2*np.pi*(np.arange(n) + 0.5)/n
     return radius*np.stack([np.cos(angle), np.sin(angle)], axis=1)
 
 
 def with_disc(x: np.ndarray, radius: float) -> tuple[np.ndarray, np.ndarray]:
-    """Points (n, 2) with a circle about the middle in place of those in it or near it, and which it has."""
+    """Points on a circle around the origin, then those of x well outside; and the indices of the circle's."""
     circle, r = on_circle(radius), np.hypot(*x.T)
     return np.concatenate([circle, x[r > radius + CLEAR]]), np.arange(len(circle))

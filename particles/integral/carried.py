@@ -1,7 +1,7 @@
-"""What points that move with their triangulation exchange, compiled; `march` steps it.
+"""Compiled exchange between points that move with their triangulation; `march` makes the time steps.
 
-The volume of a point changes by sum_j S_ij.(w_i + w_j)/2, exactly, if S is that of the middle of the step.
-What passes an edge passes it at r = w - v.
+The volume of a point grows at the rate sum_j S_ij.(w_i + w_j)/2, w the velocity of points: exactly, if S is
+taken at the middle of the step. The fluid, of velocity v, crosses edges at the relative velocity r = w - v.
 """
 from typing import Any, NamedTuple
 
@@ -14,28 +14,28 @@ from particles.neighbours import u64
 from particles.pairs import Block, rate, sweep, zero
 from particles.threads import shared
 
-formula(diffusivity)        # compiled code calls it, too
-#: of a state: places, velocity of points, then what edges exchange: momentum, mass, volume, total energy
+formula(diffusivity)        # makes it callable from compiled code
+#: rows of a state: position, velocity of points, then exchanged: momentum, mass, volume, total energy
 ROWS = ("x", "y", "wx", "wy", "px", "py", "m", "V", "E")
 EXCHANGED = slice(4, 9)
 BLOCK = 32
 
-#: ux, uy are vx, vy, for nothing lies beyond a side: what most loops read fills a line of the cache
+#: ux, uy share memory with vx, vy, as there are no images: what most loops read fills one cache line
 FIELDS = "vx vy rx ry rho P e Td eta k ux uy".split()
 OFFSETS = [*range(0, 80, 8), 0, 8]
 Point = np.dtype({"names": FIELDS, "formats": ["f8"]*len(FIELDS), "offsets": OFFSETS, "itemsize": 80})
 
 
 class Crossing(NamedTuple):
-    """What passes an edge at r = w - v: mass, momentum, energy; and pressure with its work.
+    """Convection at the relative velocity r = w - v, and pressure with its work.
 
-    m' = S.(r_a + r_b)/2 (rho_a + rho_b)/2, with it the mean velocity and (e_a + e_b + v_a.v_b)/2: kinetic
-    energy is neither made nor lost on the way. A row's own pressure is left out of the force: edges close.
+    Mass m' = S.(r_a + r_b)/2 (rho_a + rho_b)/2 carries the mean velocity and (e_a + e_b + v_a.v_b)/2, which
+    conserves kinetic energy. The force omits the pressure of the row's own point, since edges close.
     """
 
 
 class Fluid(NamedTuple):
-    """What is the same at all steps. shift : towards the middle of the triangles, over the fastest strain."""
+    """Constants of all steps. shift : rate of drift to the triangles' centre, over the largest |grad v|."""
     eos: Any
     law: Any
     terms: Listing
@@ -44,11 +44,11 @@ class Fluid(NamedTuple):
 
 
 class Bench(NamedTuple):
-    """Room for a step: fields of points; what was; what `geometry` gives in its middle, and what edges bring.
+    """Scratch memory of a step: fields of points, the state at its start, `geometry` at its middle, gains.
 
-    strain, stiffness (n,) : |grad v|, and a bound of the fastest rate at which a point's edges even it out.
-    What stages do not need lies in `before` (5, n), which only they do; strain takes the place of V. left
-    (2,) : parts of the step under way that are still to be made, and all of its parts.
+    strain, stiffness (n,) : |grad v|, and an upper bound of the rate of diffusion over the edges of a point.
+    Stages alone need `before` (5, n): arrays that they do not need share its memory, and strain overwrites V.
+    left (2,) : how many parts of the current step are still to be made, and how many it has.
     """
     points: np.ndarray
     before: np.ndarray
@@ -84,7 +84,7 @@ def _(term, a, b, ab):
 @shared
 @jit
 def read(first, last, y, eos, law, points):
-    """Fields of points."""
+    """Set the fields of points from the state."""
     for i in range(u64(first), u64(last)):
         a, m = points[i], y[6, i]
         per_m = 1/m
@@ -98,7 +98,7 @@ def read(first, last, y, eos, law, points):
 @shared
 @jit
 def follow(first, last, fluid, rings, bench):
-    """dV/dt, |grad v|, stiffness and what forces along edges lack, where the step starts."""
+    """dV/dt, |grad v|, stiffness, and the stress that forces along edges lack, at the start of a step."""
     points, edges, spread = bench.points, rings.edges, bench.spread
     for i in range(u64(first), u64(last)):
         a, begin = points[i], edges.first[i]
@@ -123,12 +123,12 @@ def complete(first, last, part, rings, bench):
 
 @formula
 def complete_row(i, part, rings, points, once):
-    """What forces along edges lack of a fluid's stress, with its heating; (1 - part) of it as it was before.
+    """Update the force and heating that forces along edges lack: once = (1 - part) old + part new.
 
-    What they lack pushes a corner i of a triangle (i, j, k) by eta R(v_j - v_k)/2, R(x, y) = (y, -x), with
-    its mean eta; what that does on all three corners, eta (v_j - v_i) x (v_k - v_i), it takes from their heat
-    in equal shares: nothing is lost in any triangle, a stream that is the same everywhere makes no
-    difference, and a rigid rotation does not heat.
+    The force on corner i of a triangle (i, j, k) is eta R(v_j - v_k)/2, R(x, y) = (y, -x), with the mean eta
+    of its corners. Its work on all three corners, eta (v_j - v_i) x (v_k - v_i), is taken from their heat in
+    equal shares. So every triangle conserves energy, the result is Galilean invariant, and a rigid rotation
+    does not heat.
     """
     a, edges, begin, rim = points[i], rings.edges, rings.edges.first[i], u64(rings.rim[i])
     end = begin + u64(edges.taken[i])
@@ -150,7 +150,7 @@ def complete_row(i, part, rings, points, once):
 @shared
 @jit_records
 def stage(first, last, dt, new, fluid, edges, bench, y):
-    """(1 - new) before + new (now + dt d/dt), which rounds to less than the sum."""
+    """Runge-Kutta stage (1 - new) before + new (now + dt d/dt), in a form that rounds less than this sum."""
     sums, before, once, g = np.empty((BLOCK, 4)), bench.before, bench.once, fluid.g
     for begin in range(u64(first), u64(last), u64(BLOCK)):
         end = min(begin + u64(BLOCK), u64(last))
@@ -171,7 +171,7 @@ def later(before, now, new, change):
 
 @jit
 def heat(held, part, once):
-    """What held points without a temperature are given."""
+    """Add to `once` the heat given to held points; `hold` overrides it where a temperature is prescribed."""
     which, _, _, _, given = held
     for s in range(len(which)):
         once[which[s], 2] += part*given[s]
@@ -179,7 +179,7 @@ def heat(held, part, once):
 
 @jit
 def hold(eos, held, y):
-    """Momentum of held points; energy of those with a temperature, the side's work on others."""
+    """Set momentum of held points, and energy of those with a temperature; add the side's work to others."""
     which, v, T, _, _ = held
     for s in range(len(which)):
         i = which[s]
@@ -192,7 +192,7 @@ def hold(eos, held, y):
 
 @jit
 def receive(fluid, rings, held, y, bench, received):
-    """Momentum and energy that held points take, per time, of a state on its own triangulation."""
+    """Momentum and energy that held points take per time; `rings` must have the geometry of this state."""
     (which, v, T, _, given), n, eos = held, y.shape[1], fluid.eos
     read(None, n, y, eos, fluid.law, bench.points)
     follow(None, n, fluid, rings, bench)

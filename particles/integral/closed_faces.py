@@ -1,8 +1,8 @@
-"""A conservative scheme on moving points: volume, mass, momentum and energy exchanged over faces, in 2D.
+"""Conservative scheme on moving points, which exchange volume, mass, momentum and energy over faces, in 2D.
 
-Faces S_ij = -S_ji close and are exact on linear fields, see `faces`. Points drift with the fluid and a little
-towards even spacing; the volume that they leave to each other carries mass, momentum and energy along, which
-RR98's moving points (Eqs 46-48) lose. Images beyond plates are those of `layer`.
+Faces S_ij = -S_ji close and are exact on linear fields, see `faces`. Points move with the fluid, and shift
+slightly towards even spacing. The volume that they pass to each other carries mass, momentum and energy,
+which RR98's moving points (Eqs 46-48) lose. Images behind plates are those of `layer`.
 """
 from dataclasses import dataclass
 from typing import Any, NamedTuple
@@ -24,19 +24,19 @@ from particles.threads import Threads
 from particles.walls import confine
 from particles.weights import check_unit
 
-#: of a state: places, drift velocity, momentum, mass, volume, total energy, the last solution for the faces
+#: rows of a state: position, velocity of points, momentum, mass, volume, total energy, solution of `faces`
 ROWS = ("x", "y", "wx", "wy", "px", "py", "m", "V", "E", *POTENTIALS)
 EXCHANGED, SOLVED = slice(4, 9), slice(9, 15)
 
 
 class Ingredients(NamedTuple):
-    """What the scheme is made of; each can be left out.
+    """Ingredients of the scheme; each can be switched off.
 
-    iterations : at most, for the faces, from what a step before found; 0 leaves them open, 12 change K by
-    less than 1e-3. within : relative residual at which they are good enough.
-    shift : of points towards even spacing, in spacings^2. follow : how fast volumes follow the density of
-    points. spread : of mass against pressure waves at the spacing, over a c/2; smooth : share of a linear
-    pressure that makes none. static : share of the hydrostatic and mean pressure taken from the faces.
+    iterations : largest number for the faces, starting from the last solution; 0 leaves faces open, 12 change
+    K by less than 1e-3. within : relative residual at which iterations end. shift : coefficient of the shift
+    towards even spacing, in spacings^2 per time. follow : rate at which volumes follow the density of points.
+    spread : diffusivity of mass against pressure waves of the spacing, over a c/2; smooth : share of a linear
+    pressure that causes none. static : share of the hydrostatic and mean pressure left out of the faces.
     transport : listed terms of friction and heat along faces.
     """
     iterations: int = 1
@@ -50,7 +50,7 @@ class Ingredients(NamedTuple):
 
 
 class DriftKickDrift:
-    """Points drift half a step, exchange over frozen faces in three stages, drift the other half."""
+    """Points move for half a step, exchange over fixed faces in three stages, move for the other half."""
     evaluations = 3
 
     def __init__(self, shape: tuple[int, ...], threads: Threads):
@@ -64,15 +64,15 @@ class DriftKickDrift:
         first[:] = now
         for new in (1.0, 1/4, 2/3):
             sums.rates(y, self.rates)
-            # (1 - new) first + new now rounds to less than the sum
+            # rounds less than (1 - new) first + new (now + dt k)
             now[:] = first + new*(now - first + dt*k)
-        # points follow the fluid, and shift
+        # velocity of points: that of the fluid, and the shift
         y[2:4] = y[4:6]/y[6] + sums.shift.T
         sums.drift(y, dt/2)
 
 
 class FaceSums(Listed):
-    """The compiled sums of moving points, with what the time loop asks for."""
+    """The compiled sums of moving points, with the interface of the time loop."""
 
     def __init__(self, method: "Moving", n: int, threads: Threads):
         self.method, self.threads, self.n = method, threads, n
@@ -85,7 +85,7 @@ class FaceSums(Listed):
         self.shift, self._lists = np.zeros((n, 2)), -1
 
     def make_faces(self, state: np.ndarray) -> None:
-        """Pairs, volumes and faces where the points are now; the solution is left in the state."""
+        """Make pairs, faces and shift for the present positions; the solution is stored in the state."""
         self.maker.make(state, state[7], state[SOLVED])
         if self._lists != self.maker.lists_made:
             self._lists, self.points = self.maker.lists_made, np.zeros(len(self.around.x), face_terms.Point)
@@ -95,7 +95,7 @@ class FaceSums(Listed):
         self.shift = shift*np.minimum(1.0, most/np.maximum(np.hypot(*shift.T), 1e-300))[:, None]
 
     def look_over(self, state: np.ndarray, ids: np.ndarray) -> None:
-        """Refuse points in one place or without neighbours; warn where the weight is too narrow."""
+        """ValueError: points coincide or have no neighbours. Warns where the weight is too narrow."""
         V, weight = state[7], self.method.weight
         a = float(np.sqrt(V.mean()))
         self.around.place(state, 1.0)
@@ -106,7 +106,7 @@ class FaceSums(Listed):
                        wrong="volumes, which follow the density of points, are")
 
     def look_at(self, state: np.ndarray) -> At:
-        """Fields of all points and images on the faces as they are: where these exchange."""
+        """Compute fields of points and images with the present faces, and prepare the stages."""
         method, around, ghosts, points, n = self.method, self.around, self.maker.ghosts, self.points, self.n
         static, g = method.ingredients.static, method.g
         self.threads(face_terms.read, n, state, method.eos, method.law, static*g, self.shift,
@@ -114,7 +114,7 @@ class FaceSums(Listed):
         self.P0 = static*inner(state[7], points["P"][:n])/float(state[7].sum())
         points["P"][:n] -= self.P0
         face_terms.read_images(n, *ghosts, points)
-        # what is not taken from the faces goes on hydrostatically behind plates
+        # pressure that is not left out of the faces continues hydrostatically behind plates
         points["P"][n:] += (1 - static)*g*(around.y[ghosts.origin] - around.y[n:])
         self.threads(sweep, n, face_terms.FaceDifferences(), points, self.maker.faces, self.slopes)
         self.threads(face_terms.pressure_slopes, n, self.slopes, state[7], points)
@@ -125,13 +125,13 @@ class FaceSums(Listed):
         return at
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
-        """d/dt of what faces exchange, written to `out[4:9]`."""
+        """d/dt of the rows that faces exchange, written to `out[4:9]`."""
         method, total = self.method, self.exchange.sum(self.look_at(state))
         self.threads(face_terms.per_time, self.n, total, state, self.points, method.g,
                      method.ingredients.static, self.P0, out)
 
     def drift(self, state: np.ndarray, dt: float) -> None:
-        """Move the points; those beyond a plate turn back, with their momentum."""
+        """Move the points; plates reflect those that have crossed them, with their momentum."""
         state[:2] += dt*state[2:4]
         self.confine(state)
 
@@ -155,10 +155,10 @@ class FaceSums(Listed):
 
 @dataclass(frozen=True, kw_only=True)
 class Moving:
-    """A fluid on moving points, about one a unit area.
+    """A fluid on moving points, about one per unit area.
 
     weight : of `particles.weights`. walls : tuple of mirror plates and periodic sides. box : (width, height).
-    g : gravity, downwards; the hydrostatic pressure -g y of mean density 1 is left out of the faces.
+    g : gravity, downwards; `static` of the hydrostatic pressure -g y of mean density 1 is left out of faces.
     """
     weight: Any
     eos: Any
@@ -175,7 +175,7 @@ class Moving:
         check_unit(self.weight)
 
     def state(self, x: np.ndarray, rho: Any, v: np.ndarray, T: np.ndarray) -> np.ndarray:
-        """(15, n) of places (n, 2), densities, velocities (n, 2), temperatures (n,); equal volumes."""
+        """(15, n) from positions (n, 2), densities, velocities (n, 2), temperatures (n,); equal volumes."""
         V = np.full(len(x), self.box[0]*self.box[1]/len(x))
         m, e = rho*V, energy(self.eos, rho, T)
         exchanged = [*(m[:, None]*v).T, m, V, m*(e + (v**2).sum(axis=1)/2)]
@@ -191,9 +191,9 @@ class Moving:
 
 @limit_of.register
 def _(method: Moving, start: np.ndarray) -> float:
-    """Three-stage Runge-Kutta, 1.73 and 2.5 on its axes; points off a lattice are 1.4 times faster.
+    """Stability limit of three-stage Runge-Kutta, 1.73 and 2.5 on the axes, for rates 1.4 times a lattice's.
 
-    On a lattice sound is slower than c, diffusion than 4 chi, volumes follow at 2.9 `follow` (Wendland C2).
+    On a lattice: sound slower than c, diffusion than 4 chi, volumes following at 2.9 `follow` (Wendland C2).
     """
     px, py, m, V, E = start[EXCHANGED]
     check_volumes(V)

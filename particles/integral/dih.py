@@ -1,7 +1,7 @@
 """Discretized integral hydrodynamics: exchange over edges, in d dimensions    [RR98, Sec. III]
 
 The state (2 + d, n) holds densities rho, p^alpha = rho v^alpha, total energy eps per volume; RR98's m_i, p_i,
-eps_i are these times the volume V_i (Eq. 26). What leaves point i over an edge is what point j gains:
+eps_i are these times the volume V_i (Eq. 26). What point i loses over an edge, point j gains:
 
     mass       1/2 S.(rho_i v_j + rho_j v_i)                                                   [Eq. 34]
     momentum   1/2 S.{(p_i v_j + p_j v_i) + (P_ij + P_ji) 1 - (pi_ij + pi_ji)}                 [Eq. 35]
@@ -21,7 +21,7 @@ from particles.integral.edges import Edges
 
 
 class Flow(NamedTuple):
-    """What follows from a state: rho (n,), v (n, d), T (n,), eps (n,), P (n,)."""
+    """Fields of a state: rho (n,), v (n, d), T (n,), eps (n,), P (n,)."""
     rho: np.ndarray
     v: np.ndarray
     T: np.ndarray
@@ -37,14 +37,14 @@ class Coefficients(NamedTuple):
 
 
 class EdgeFluxes(NamedTuple):
-    """What leaves the first point of each edge: mass (E,), momentum (E, d), energy (E,)."""
+    """Fluxes out of the first point of each edge: mass (E,), momentum (E, d), energy (E,)."""
     mass: np.ndarray
     momentum: np.ndarray
     energy: np.ndarray
 
 
 def densities(eos: Any, rho: np.ndarray, v: np.ndarray, T: Any) -> np.ndarray:
-    """(2 + d, n): density, momentum and total energy per volume, of rho (n,), v (n, d), T (n,)."""
+    """Density, momentum, total energy per volume, (2 + d, n), from rho (n,), v (n, d), T (n,)."""
     return np.stack([rho, *(rho[:, None]*v).T, rho*(energy(eos, rho, T) + (v**2).sum(axis=1)/2)])
 
 
@@ -53,7 +53,7 @@ def take(flow: Flow, points: np.ndarray) -> Flow:
 
 
 def carried(eos: Any, S: np.ndarray, a: Flow, b: Flow) -> EdgeFluxes:
-    """Brackets of Eqs 34-36 without stress and heat, from a to b."""
+    """Fluxes from points a to b by Eqs 34-36, without stress and heat current."""
     half = S/2
     to_b, to_a = (half*b.v).sum(axis=1), (half*a.v).sum(axis=1)      # S.v_b/2, S.v_a/2
     P_ab, P_ba = pressure(eos, a.rho, energy(eos, a.rho, b.T)), pressure(eos, b.rho, energy(eos, b.rho, a.T))
@@ -65,7 +65,7 @@ def carried(eos: Any, S: np.ndarray, a: Flow, b: Flow) -> EdgeFluxes:
 class NestedFluxes:
     """Stress and heat current of Eqs 37, 38: pi_ij = eta_i E(grad v_j), J_ij = -kappa_i grad T_j.
 
-    differences : the inner sum takes v_k - v_j, exact on uniform flow, not v_k as printed.
+    differences : take v_k - v_j in the inner sum, exact on uniform flow, instead of v_k as printed.
     """
     differences: bool = True
 
@@ -83,7 +83,7 @@ class NestedFluxes:
         return EdgeFluxes(np.zeros(len(i)), momentum, (half*current).sum(axis=1) - work)
 
     def gradient(self, edges: Edges, f: np.ndarray) -> np.ndarray:
-        """(n, d, m) of f (n, m): by differences, or -sum_k w_jk e_jk f_k as printed."""
+        """Gradient (n, d, m) of f (n, m): by differences, or -sum_k w_jk e_jk f_k as printed."""
         matrices = edges.G if self.differences else [S/2 for S in edges.areas]
         return np.stack([M@f for M in matrices], axis=1)/edges.V[:, None, None]
 
@@ -92,15 +92,15 @@ class NestedFluxes:
 class Pairwise:
     """Forces along edges [Eq. 51]: k [B (v_j - v_i) + A e e.(v_j - v_i)], heat k kappa (T_j - T_i).
 
-    B, A of `frictions`, as printed but for weights and their moments. mended : with the stress tau_ab = B
-    (d_b v_a - delta_ab div v) of the points, and its work F_a = tau_ab v_b. In the continuum tau has no
-    divergence where viscosity is constant, and the force is left as it is then; where it varies forces along
-    edges lack it. F has one always: without it even a rigid rotation heats.
+    B, A are those of `frictions`, as printed except for weights and their moments. mended : add the stress
+    tau_ab = B (d_b v_a - delta_ab div v) of the points, which forces along edges lack, and its work F_a =
+    tau_ab v_b. In the continuum div tau = 0 where viscosity is constant: its force is added only where
+    viscosity varies. F is always added: without it even a rigid rotation heats.
     """
     mended: bool = True
 
     def fluxes(self, dih: "Dih", flow: Flow) -> EdgeFluxes:
-        """Through all edges. ValueError: a bulk viscosity that makes a friction negative."""
+        """Fluxes through all edges. Raises ValueError: a bulk viscosity makes a friction negative."""
         edges, coefficients = dih.edges, dih.coefficients(flow)
         check_bulk(coefficients.eta, coefficients.zeta, edges.d)
         found = along(edges, means(coefficients, edges.i, edges.j), take(flow, edges.i), take(flow, edges.j))
@@ -117,7 +117,7 @@ class Pairwise:
 
 @dataclass(frozen=True, kw_only=True)
 class Mixed:
-    """A share of transport along edges [Eq. 51], the rest by stresses and currents [Eqs 37, 38]."""
+    """A share of transport along edges [Eq. 51], the rest nested [Eqs 37, 38]."""
     share: float
 
     def __post_init__(self):
@@ -130,7 +130,7 @@ class Mixed:
 
 
 def check_share(share: float) -> None:
-    """Refuse a share that is none."""
+    """Raise ValueError unless the share is between 0 and 1."""
     if not 0 <= share <= 1:
         raise ValueError(f"the share of transport along edges must be between 0 and 1, got {share}")
 
@@ -141,7 +141,7 @@ def frictions(eta: np.ndarray, zeta: np.ndarray, d: int) -> tuple[np.ndarray, np
 
 
 def along(edges: Any, coefficients: Coefficients, a: Flow, b: Flow) -> EdgeFluxes:
-    """Friction and heat along edges (with k and apart), from points a to b    [Eq. 51]"""
+    """Fluxes from points a to b by friction and heat along edges, with k and apart    [Eq. 51]"""
     d, (eta, zeta, kappa) = edges.apart.shape[1], coefficients
     B, A = frictions(eta, zeta, d)
     dv, e = b.v - a.v, edges.apart/np.sqrt((edges.apart**2).sum(axis=1))[:, None]
@@ -151,14 +151,14 @@ def along(edges: Any, coefficients: Coefficients, a: Flow, b: Flow) -> EdgeFluxe
 
 
 def transposed(coefficients: Coefficients, slope: np.ndarray) -> np.ndarray:
-    """tau[n, a, b] = B (d_b v_a - delta_ab div v), B of `frictions`, slope[n, a, b] = d_a v_b."""
+    """Stress tau[n, a, b] = B (d_b v_a - delta_ab div v), B of `frictions`, slope[n, a, b] = d_a v_b."""
     d, (eta, zeta, _) = slope.shape[1], coefficients
     div = np.einsum("naa->n", slope)[:, None, None]*np.eye(d)
     return frictions(eta, zeta, d)[0][:, None, None]*(np.swapaxes(slope, 1, 2) - div)
 
 
 def check_bulk(eta: np.ndarray, zeta: np.ndarray, d: int) -> None:
-    """Frictions A and B of an edge must not be negative; on a line only their sum, zeta, counts."""
+    """Raise ValueError if A or B of `frictions` is negative; in 1D only their sum, zeta, counts."""
     low, high = (0*eta, np.inf + 0*eta) if d == 1 else (-eta*(1 - 2/d), eta*(1 + 2/d))
     bad = np.flatnonzero((zeta < low - 1e-12*eta) | (zeta > high + 1e-12*eta))
     if len(bad):
@@ -168,7 +168,7 @@ def check_bulk(eta: np.ndarray, zeta: np.ndarray, d: int) -> None:
 
 
 def gained(edges: Edges, *fluxes: EdgeFluxes) -> np.ndarray:
-    """(2 + d, n): what points gain by fluxes over edges."""
+    """Gains of the points by fluxes over edges, (2 + d, n)."""
     mass, momentum, energy = (sum(q[1:], q[0]) for q in zip(*fluxes, strict=True))
     return np.stack([np.bincount(edges.j, flux, edges.n) - np.bincount(edges.i, flux, edges.n)
                      for flux in (mass, *momentum.T, energy)])
@@ -195,11 +195,11 @@ class Dih:
         return ("rho", *("px", "py", "pz")[:self.edges.d], "eps")
 
     def state(self, rho: np.ndarray, v: np.ndarray, T: np.ndarray) -> np.ndarray:
-        """(2 + d, n) of densities (n,), velocities (n, d), temperatures (n,)."""
+        """State (2 + d, n) from densities (n,), velocities (n, d), temperatures (n,)."""
         return densities(self.eos, rho, v, T)
 
     def flow(self, state: np.ndarray) -> Flow:
-        """Fields of a state. FloatingPointError names a point outside of the equation of state."""
+        """Fields of a state. FloatingPointError: a point is outside the validity of the equation of state."""
         rho, eps = state[0], state[-1]
         with np.errstate(all="ignore"):
             v = (state[1:-1]/rho).T
@@ -212,7 +212,7 @@ class Dih:
         return Flow(rho, v, temperature(self.eos, rho, e), eps, pressure(self.eos, rho, e))
 
     def fields(self, state: np.ndarray) -> Fields:
-        """Of the points, (n,) each; edges know no places."""
+        """Fields of the points; positions are nan, since edges do not store them."""
         nowhere = np.full((self.edges.n, self.edges.d), np.nan)
         return from_densities(self.eos, nowhere, self.edges.V, state[0], state[1:-1], state[-1])
 
@@ -229,5 +229,5 @@ class Dih:
         out[:] = gained(edges, moved, self.transport.fluxes(self, flow))/edges.V
 
     def conserved(self, state: np.ndarray) -> np.ndarray:
-        """Mass, momentum and energy of all points, (2 + d,)."""
+        """Total mass, momentum and energy of all points, (2 + d,)."""
         return state@self.edges.V

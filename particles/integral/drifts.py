@@ -1,4 +1,4 @@
-"""What pairs of moving points exchange, in 2D: terms listed by RR98's motions    [Sec. III]"""
+"""Pair terms of moving points, listed for each of RR98's motions, in 2D    [Sec. III]"""
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -11,39 +11,39 @@ from particles.threads import Threads
 
 
 class OverPairs(NamedTuple):
-    """A term over edges, on the edges that pairs are now: S_ab/2 = V_a V_b W e_ba, k = 2 V_a V_b W/r."""
+    """A term over edges, evaluated on pairs as edges of S_ab/2 = V_a V_b W e_ba, k = 2 V_a V_b W/r."""
     term: Any
 
 
 class Drifting(NamedTuple):
-    """What a pair of points adds to the first: the listed mass, momentum and energy, and volume."""
+    """Gain of the first point of a pair: mass, momentum, energy of the listed terms, and volume."""
     motion: Any
     exchanged: Listing
 
 
 class BracketPressure(NamedTuple):
-    """Pressures P_ab, P_ba of Eq. 49 or 50; both points may leave out a static part."""
+    """Pressures P_ab, P_ba of Eq. 49 or 50, less the static part that a point leaves out, -hydro."""
     bracket: Any
     eos: Any
 
 
 class Dilution(NamedTuple):
-    """-q_a div v for rho, rho v and eps: what is left of convection where points move along    [Eqs 46-48]
+    """-q_a div v of q = rho, rho v, eps: convection seen by points that move with the fluid    [Eqs 46-48]
 
-    follow : volumes grow by so much of V div v.
+    follow : share of V div v by which volumes grow.
     """
     follow: float
 
 
 class LiteralDrift(NamedTuple):
-    """Eqs 34-36 and 39 as printed: points move, and what convection brings is exchanged as well."""
+    """Eqs 34-36 and 39 as printed: points move, and convection is exchanged all the same."""
 
     def terms(self, eos: Any, transport: tuple) -> tuple:
         return Convection(), *transport, Pressure(eos)
 
 
 class ConvectiveDrift(NamedTuple):
-    """Eqs 34-36, 39, 46-48. follow : 0 for volumes that stay, as printed; 1 for dV/dt = V div v."""
+    """Eqs 34-36, 39, 46-48. follow : 0 for constant volumes, as printed; 1 for dV/dt = V div v."""
     follow: float = 0.0
 
     def terms(self, eos: Any, transport: tuple) -> tuple:
@@ -51,26 +51,26 @@ class ConvectiveDrift(NamedTuple):
 
 
 class ConstantMassDrift(NamedTuple):
-    """Eq. 49: masses stay, volumes follow the flow. bracket : `Crossed` or `Powers` [Eq. 50]."""
+    """Eq. 49: masses are constant, volumes follow the flow. bracket : `Crossed` or `Powers` [Eq. 50]."""
     bracket: Any = Crossed()
 
     def terms(self, eos: Any, transport: tuple) -> tuple:
         return *transport, BracketPressure(self.bracket, eos)
 
 
-#: by the names of `rr98_moving_plain.MOTIONS`
+#: motions by their names in `rr98_moving_plain.MOTIONS`
 DRIFTS: dict[str, Any] = {"literal": LiteralDrift(), "convective": ConvectiveDrift(),
                           "carried": ConvectiveDrift(1.0), "constant-mass": ConstantMassDrift()}
 
 
 @generic
 def growth(motion, a, b, ab):
-    """What a pair adds to the volume of a, before stages."""
+    """Rate at which a pair changes the volume of a, before stages."""
 
 
 @generic
 def both(bracket, eos, a, b):
-    """(P_ab, P_ba); in the energy P_ab goes with v_a."""
+    """Pressures (P_ab, P_ba); energy is exchanged by P_ab v_a + P_ba v_b."""
 
 
 zero.of(OverPairs)(lambda term: zero(term.term))
@@ -118,7 +118,7 @@ def _(bracket, eos, a, b):
 
 
 class Diluting(Stage):
-    """Takes q_a div v off, of the volume that the sweep found."""
+    """Subtracts q_a div v, with V div v from the sweep."""
 
     def __init__(self, follow: float, n: int, threads: Threads):
         self.follow, self.n, self.threads = follow, n, threads

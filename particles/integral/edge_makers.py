@@ -1,4 +1,4 @@
-"""Edges of points and a weight: RR98's Eq. 29 as printed, plain quadrature, and repairs."""
+"""Makers of edges from points and a weight: RR98's Eq. 29 as printed, plain quadrature, and repairs."""
 import warnings
 from collections.abc import Callable
 from dataclasses import replace
@@ -16,21 +16,21 @@ from particles.integral.triangulation import delaunay
 
 
 def from_weights(points: Points, weight: Any, w: np.ndarray, near: tuple[np.ndarray, ...]) -> Edges:
-    """Edges of RR98's bracket with scaled weights w (pairs,): sum_j w_ij V_j e_ij.(...)."""
+    """Edges of RR98's bracket sum_j w_ij V_j e_ij.(...) for pairs `near` with scaled weights w (pairs,)."""
     i, j, apart, r = near
     both = 2*w*points.V[i]*points.V[j]/r
     return Edges(i=i, j=j, S=both[:, None]*apart, k=both, apart=apart, V=points.V)
 
 
 def judged(edges: Edges, points: Points, weight: Any) -> Edges:
-    """The edges; a warning where the weight is too narrow for the points    [Eq. 45]"""
+    """Return the edges; warn if the weight is too narrow for the points    [Eq. 45]"""
     off = edges.linear - np.eye(points.d)
     check_ordering(weight, points.d, points.a, float(np.sqrt((off**2).sum(axis=(1, 2)).mean()/points.d)))
     return edges
 
 
 def plain(points: Points, weight: Any) -> Edges:
-    """Plain quadrature, W(r_ij) dV in place of W(r) dr; warns if Eq. 45 does not hold."""
+    """Edges of plain quadrature, W(r_ij) dV in place of W(r) dr. Warns if Eq. 45 does not hold."""
     return judged(_plain(points, weight), points, weight)
 
 
@@ -41,10 +41,10 @@ def _plain(points: Points, weight: Any) -> Edges:
 
 
 def printed(points: Points, weight: Any) -> Edges:
-    """RR98 Eq. 29 as printed, in 3D W(r) dV -> 4 pi r^2 dV^(1/3) W(r); |S_d| r^(d-1) dV^(1/d) W in d.
+    """RR98 Eq. 29 as printed: W(r) dV -> 4 pi r^2 dV^(1/3) W(r) in 3D, |S_d| r^(d-1) dV^(1/d) W in d.
 
-    Right along one line from a point only: summed over all points around, it multiplies gradients of linear
-    fields by (|S_d|/d) M_d (r0/a)^(d-1).
+    This is right along one line from a point only: summed over all neighbours, it multiplies gradients of
+    linear fields by (|S_d|/d) M_d (r0/a)^(d-1).
     """
     check(weight, points.d)
     d, near = points.d, pairs(points, reach(weight))
@@ -54,8 +54,8 @@ def printed(points: Points, weight: Any) -> Edges:
 
 
 def renormalised(points: Points, weight: Any) -> Edges:
-    """Plain quadrature times the number that makes the mean discrete first moment sum_j W r_ij dV equal to d.
-    Warns where Eq. 45 does not hold. ValueError: no two points are within the weight's range."""
+    """Plain quadrature times the factor that makes the mean discrete first moment sum_j W r_ij dV equal to d.
+    Warns if Eq. 45 does not hold. Raises ValueError: no two points are within the weight's range."""
     return judged(_renormalised(points, weight), points, weight)
 
 
@@ -64,22 +64,22 @@ def _renormalised(points: Points, weight: Any) -> Edges:
     if not edges.k.any():
         raise ValueError(f"no two of the {points.n} points, on average {points.a:.4g} apart, are within the "
                          f"weight's range {reach(weight):.4g}: take a larger h or more points (Eq. 45)")
-    # d times the factor of linear gradients
+    # d times the factor by which gradients of linear fields are off
     first = float(np.einsum("iaa,i->", edges.linear, edges.V)/edges.V.sum())
     c = points.d/first
     return replace(edges, S=c*edges.S, k=c*edges.k)
 
 
 def closed(points: Points, weight: Any) -> Edges:
-    """A': S_ij + k_ij (l_j - l_i), l from the graph Laplacian so that all edges close. Gradients are wrong by
-    a share that the disorder sets. Raises ValueError: points fall into parts without an edge between them."""
+    """Renormalised edges, S_ij + k_ij (l_j - l_i), l from the graph Laplacian so that all close. Gradients
+    keep an error that the disorder sets. Raises ValueError: the points fall into unconnected parts."""
     edges = judged(_renormalised(points, weight), points, weight)
     l = np.stack([_potential(edges, -c) for c in edges.closure.T], axis=1)
     return replace(edges, S=edges.S + edges.k[:, None]*(l[edges.j] - l[edges.i]))
 
 
 def _potential(edges: Edges, source: np.ndarray) -> np.ndarray:
-    """l with sum_j k_ij (l_j - l_i) = source_i."""
+    """Potential l (n,) with sum_j k_ij (l_j - l_i) = source_i, zero at point 0."""
     check_connected(edges)
     L = edges.laplacian.tolil()
     L[0, :] = 0
@@ -90,7 +90,7 @@ def _potential(edges: Edges, source: np.ndarray) -> np.ndarray:
 
 
 def check_connected(edges: Edges) -> None:
-    """Refuse points in several parts."""
+    """Raise ValueError unless edges connect all points."""
     parts, label = connected_components(edges.laplacian, directed=False)
     if parts > 1:
         lonely = int(np.argmax(label == np.argmin(np.bincount(label))))
@@ -99,12 +99,12 @@ def check_connected(edges: Edges) -> None:
 
 
 def exact(points: Points, weight: Any) -> Edges:
-    """The edges nearest to the renormalised ones, by sum (dS)^2/k, that close and are exact.
+    """Edges that close and are exact on linear fields, nearest to the renormalised ones in sum (dS)^2/k.
 
-    dS_ij = k_ij [lam_i - lam_j + (mu_i + mu_j).(x_j - x_i)/2] for each direction, lam (n,), mu (n, d) from
-    the constraints. Raises ArithmeticError: the points are too irregular for the reach of the weight.
+    dS_ij = k_ij [lam_i - lam_j + (mu_i + mu_j).(x_j - x_i)/2] for each direction; lam (n,), mu (n, d) follow
+    from the constraints. Raises ArithmeticError: the points are too irregular for the reach of the weight.
     """
-    edges = _renormalised(points, weight)       # whatever Eq. 45 says: these become exact
+    edges = _renormalised(points, weight)       # no check of Eq. 45: these become exact
     check_connected(edges)
     B = _constraints(edges)
     M = sparse.csc_array(B@sparse.diags_array(edges.k)@B.T)
@@ -113,9 +113,9 @@ def exact(points: Points, weight: Any) -> Edges:
     for alpha in range(points.d):
         missing = np.outer(np.eye(1 + points.d)[1 + alpha], points.V).ravel() - B@edges.S[:, alpha]
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore", MatrixRankWarning)      # told below
+            warnings.simplefilter("ignore", MatrixRankWarning)      # raised below
             change = edges.k*(B.T@spsolve(M, missing))
-            change += edges.k*(B.T@spsolve(M, missing - B@change))     # once more for what the solution left
+            change += edges.k*(B.T@spsolve(M, missing - B@change))     # refined by the residual
         columns.append(edges.S[:, alpha] + change)
     made = replace(edges, S=np.stack(columns, axis=1))
     worst = np.abs(made.linear - np.eye(points.d)).max()
@@ -126,7 +126,7 @@ def exact(points: Points, weight: Any) -> Edges:
 
 
 def _constraints(edges: Edges) -> sparse.csr_array:
-    """B with B S = (sum_j S_ij, 1/2 sum_j S_ij (x_j - x_i)) for one direction: ((1 + d) n, E)."""
+    """Matrix B ((1 + d) n, E) of B S = (sum_j S_ij, 1/2 sum_j S_ij (x_j - x_i)), for one direction."""
     e, n = np.arange(len(edges.i)), edges.n
     rows, columns = [edges.i, edges.j], [e, e]
     values = [np.ones(len(e)), -np.ones(len(e))]
@@ -139,7 +139,7 @@ def _constraints(edges: Edges) -> sparse.csr_array:
                             shape=((1 + edges.d)*n, len(e)))
 
 
-#: by name; each makes edges of points and a weight, which `delaunay` does not use
+#: makers by name; each makes edges from points and a weight, which `delaunay` ignores
 MAKERS: dict[str, Callable[[Points, Any], Edges]] = {"printed": printed, "plain": plain,
                                                      "renormalised": renormalised, "closed": closed,
                                                      "exact": exact, "delaunay": delaunay}

@@ -1,14 +1,14 @@
-"""Exchange over edges: the form that all conservative schemes here have, in d = 1, 2, 3    [RR98, Sec. III]
+"""Exchange over edges, the form of all conservative schemes here, in d = 1, 2, 3    [RR98, Sec. III]
 
 An edge (i, j) has an area vector S_ij = -S_ji and a conductance k_ij = k_ji; points have volumes V_i:
 
     V_i (div F)_i = sum_j S_ij.(F_i + F_j)/2          conserves, since S is antisymmetric
     V_i (grad f)_i = sum_j S_ij (f_j - f_i)/2         exact on constants; adjoint to -div if edges close
-    V_i (lap f)_i = sum_j k_ij (f_j - f_i)            never grows
+    V_i (lap f)_i = sum_j k_ij (f_j - f_i)            symmetric; no mode grows
 
 RR98's bracket sum_j w_ij e_ij.(...) is this form with S_ij = 2 w_ij V_i V_j e_ji, k_ij = 2 w_ij V_i V_j/r_ij
 (Eqs 34-36, 51). Edges close if sum_j S_ij = 0, and are exact on linear fields if 1/2 sum_j S_ij (x_j - x_i) =
-V_i 1. Physics is written over edges; schemes differ in who makes them: `makers` from a weight,
+V_i 1. Physics is written over edges; schemes differ in how edges are made: `edge_makers` from a weight,
 `triangulation` from points alone.
 """
 from collections.abc import Callable
@@ -25,7 +25,7 @@ from particles.integral.points import Points, of_positions
 
 @dataclass(frozen=True, kw_only=True)
 class Edges:
-    """Edges i -> j (each once) with S (E, d), k (E,), apart = x_j - x_i (E, d); volumes V (n,)."""
+    """Edges i -> j, each stored once, with S (E, d), k (E,), apart = x_j - x_i (E, d); volumes V (n,)."""
     i: np.ndarray
     j: np.ndarray
     S: np.ndarray
@@ -43,7 +43,7 @@ class Edges:
 
     @cached_property
     def areas(self) -> list[sparse.csr_array]:
-        """The antisymmetric matrices S^alpha_ij, one a direction."""
+        """The antisymmetric matrices S^alpha_ij, one for each direction alpha."""
         return [self._matrix(s, -s) for s in self.S.T]
 
     def _matrix(self, forward: np.ndarray, back: np.ndarray) -> sparse.csr_array:
@@ -66,25 +66,25 @@ class Edges:
 
     @cached_property
     def laplacian(self) -> sparse.csr_array:
-        """L_ij with V lap f = L f: symmetric, rows sum to zero."""
+        """Matrix L with V lap f = L f: symmetric, rows sum to zero."""
         off = self._matrix(self.k, self.k)
         return sparse.csr_array(off - sparse.diags_array(off.sum(axis=1)))
 
     @cached_property
     def D(self) -> list[sparse.csr_array]:
-        """V div F = sum_alpha D^alpha F^alpha, with the "+" bracket (F_i + F_j)."""
+        """Matrices of V div F = sum_alpha D^alpha F^alpha, with the "+" bracket (F_i + F_j)."""
         return [sparse.csr_array((S + sparse.diags_array(c))/2)
                 for S, c in zip(self.areas, self.closure.T, strict=True)]
 
     @cached_property
     def G(self) -> list[sparse.csr_array]:
-        """V grad f = G f with differences f_j - f_i: G = -D^T."""
+        """Matrices of V grad f = G f, with differences f_j - f_i: G = -D^T."""
         return [sparse.csr_array((S - sparse.diags_array(c))/2)
                 for S, c in zip(self.areas, self.closure.T, strict=True)]
 
     @cached_property
     def fastest(self) -> tuple[float, float]:
-        """Largest frequency of sound over its speed, and largest rate of diffusion over the diffusivity."""
+        """Largest frequency of sound over its speed, largest rate of diffusion over the diffusivity."""
         return _fastest(self.V, self.G, self.laplacian)
 
     def div(self, F: np.ndarray) -> np.ndarray:
@@ -102,7 +102,7 @@ class Edges:
 
 def combined(i: np.ndarray, j: np.ndarray, S: np.ndarray, k: np.ndarray, apart: np.ndarray, V: np.ndarray,
              a: float) -> Edges:
-    """Edges with i < j; those that join the same points in the same direction are added up."""
+    """Edges with i < j; edges between the same points along the same vector are added up."""
     turn = np.where(i > j, -1.0, 1.0)[:, None]
     S, apart, i, j = turn*S, turn*apart, np.minimum(i, j), np.maximum(i, j)
     keys = np.column_stack([i, j, np.round(apart/a*1e6).astype(np.int64)])
@@ -121,7 +121,7 @@ def _fastest(V: np.ndarray, G: list[sparse.csr_array], laplacian: sparse.csr_arr
     return float(sound[0]), float(-spread[0])
 
 
-#: signs of a vector mirrored in a plate across y
+#: signs of the components of a vector that is mirrored in a plate
 MIRROR = np.array([1.0, -1.0])
 
 
@@ -143,7 +143,7 @@ NONE_BEYOND = Beyond(i=NOWHERE, parent=NOWHERE, S=np.empty((0, 2)), k=np.empty(0
 
 
 def fastest(edges: Edges, beyond: Beyond) -> tuple[float, float]:
-    """`Edges.fastest` between plates: images have their parents' pressure, opposite velocity, T."""
+    """`Edges.fastest` between plates: images have their parents' pressure, and opposite velocity and T."""
     def seen(q: np.ndarray, sign: float) -> sparse.csr_array:
         own, image = (sparse.csr_array((q, (beyond.i, to)), shape=(edges.n, edges.n))
                       for to in (beyond.i, beyond.parent))
@@ -153,7 +153,7 @@ def fastest(edges: Edges, beyond: Beyond) -> tuple[float, float]:
 
 
 def symmetric(edges: Edges, a: float) -> Edges:
-    """Mean of edges and their mirror image across y; point m + n/2 is the image of point m."""
+    """Mean of edges and their mirror image in y; point m + n/2 is the image of point m."""
     half = edges.n//2
     i, j = ((q + half) % edges.n for q in (edges.i, edges.j))
     joined = np.concatenate
@@ -163,7 +163,7 @@ def symmetric(edges: Edges, a: float) -> Edges:
 
 
 def check_between(x: np.ndarray, height: float) -> None:
-    """Refuse points (n, 2) whose mirror images would be among the others, or would be they themselves."""
+    """Raise ValueError unless all points (n, 2) lie strictly between the plates."""
     out = np.flatnonzero(~(np.abs(x[:, 1]) < height/2*(1 - 1e-9)))
     if len(out):
         i = out[0]
@@ -176,13 +176,13 @@ def between_plates(make: Callable[[Points, Any], Edges], x: np.ndarray, width: f
                    weight: Any) -> tuple[Edges, Beyond]:
     """Edges among points x (n, 2), periodic in x, and to mirror images in the plates y = -+ height/2.
 
-    The maker sees points and images in a periodic box twice as high; what it makes is averaged with its own
+    The maker gets points and images in a periodic box of twice the height. Its edges are averaged with their
     mirror image, since a triangulation has to choose one of two diagonals. Raises ValueError: a point is on a
-    plate or beyond it; what makers refuse.
+    plate or beyond it; and what the maker raises.
     """
     check_between(x, height)
     n = len(x)
-    # -height < y < 0; the upper plate is at 0, the lower at the edge
+    # -height < y < 0: the upper plate is at 0, the lower at the end of the box
     lower = x - np.array([0.0, height/2])
     points = of_positions(np.concatenate([lower, lower*MIRROR]), (width, 2*height))
     try:

@@ -1,10 +1,10 @@
-"""What edges that close exchange of a fluid so that no entropy is lost or destroyed, in 2D.
+"""Entropy-conserving fluxes over edges that close, and dissipation that never destroys entropy, in 2D.
 
-In place of convection and pressure a scene lists `Logarithmic` and one of three pressures, which together
-keep sum V rho s to round-off [Tadmor 1987]: `exchange.Pressure`, RR98's own crossed one, is as accurate as
-their brackets, and does so in an ideal gas; `MeanPressure` keeps contacts; `BlendedPressure` is the first
-where flow is smooth and the second at contacts. `Dissipation` goes with any; two states cannot make it
-destroy entropy. {} is the mean of both points, _ln the logarithmic one.
+A scene lists `Logarithmic` and one of three pressures in place of convection and pressure; together they
+conserve sum V rho s to round-off [Tadmor 1987]. `exchange.Pressure`, the crossed pressure of RR98, does so in
+an ideal gas, and is as accurate as RR98's brackets; `MeanPressure` preserves contacts; `BlendedPressure` is
+the crossed pressure in smooth flow and the mean at contacts. `Dissipation` can be added to any of them.
+{} is the mean of both points of an edge, D their difference.
 """
 from typing import Any, NamedTuple
 
@@ -16,49 +16,49 @@ from particles.integral.exchange import pressure_of
 from particles.neighbours import u64
 from particles.pairs import pair_term
 
-STEEP, STEEPEST = 6, 20.0       # power of the sensor; what weighs a bend of the pressure, over its mean
-SLOW = 0.1                      # of |v|, in the speed of shear and entropy waves that stand still on an edge
-CALM, ROUNDING = 1e-3, 1e-12    # parts of a full jump, and of a field, below which nothing is dissipated
+STEEP, STEEPEST = 6, 20.0       # exponent of the sensor; factor of the bend of the pressure over its mean
+SLOW = 0.1                      # least speed of shear and entropy waves on an edge, over |w - v|
+CALM, ROUNDING = 1e-3, 1e-12    # thresholds of dissipation: part of a full jump, part of a field
 STILL = CALM**(1/STEEP)
-LN2, MANTISSA, HALF = np.log(2), u64(52), u64((2*1023 + 1) << 51)      # of a number's bits; 1/2 more than 2^0
+LN2, MANTISSA, HALF = np.log(2), u64(52), u64((2*1023 + 1) << 51)     # mantissa's bits; exponent bias + 1/2
 
 
 class Logarithmic(NamedTuple):
-    """m = S.{w - v} rho* comes in, with {v} and e* + v_a.v_b/2, of `log_means`    [Chandrashekar 2013]
+    """Mass S.{w - v} rho* brings velocity {v} and energy e* + v_a.v_b/2; `log_means`    [Chandrashekar 2013]
 
-    With q = d(-rho s)/d(rho, rho v, eps), U* = rho* (1, {v}, ..) has Dq.U* = D(P/T), and a volume that grows
-    by S.{w} takes -rho s - q.U = -P/T times it: of an edge that moves at {w} both add up to nothing.
+    With q = d(-rho s)/d(rho, rho v, eps), U* = rho* (1, {v}, ..) satisfies Dq.U* = D(P/T). A volume growing
+    by S.{w} contributes -rho s - q.U = -P/T times its growth: for an edge that moves at {w} they cancel.
     """
     eos: Any
 
 
 class MeanPressure(NamedTuple):
-    """{P}, and its work S.(P_a v_b + P_b v_a)/2    [Ranocha 2018]"""
+    """Mean pressure {P} on an edge, with the work S.(P_a v_b + P_b v_a)/2    [Ranocha 2018]"""
     eos: Any
 
 
 class BlendedPressure(NamedTuple):
-    """w of `MeanPressure`, 1 - w of P_a T_b/T_a and P_b T_a/T_b, which is `Pressure` of an ideal gas.
+    """Share w of {P}, 1 - w of the crossed P_a T_b/T_a and P_b T_a/T_b, which is `Pressure` of an ideal gas.
 
-    Where P_a = P_b the crossed one is too large by x = (DT)^2/(2 T_a T_b). With y = DP/{P}, w = x^2/(x^2 +
-    y^2): what is added to {P} is never more than 5/4 |DP|, and nothing at a contact; w is of second order
-    where flow is smooth. Each keeps entropy, and so does any blend that is the same from both ends.
+    Where P_a = P_b the crossed pressure is too large by the share x = (DT)^2/(2 T_a T_b). With y = DP/{P} and
+    w = x^2/(x^2 + y^2), at most 5/4 |DP| is added to {P}, and nothing at a contact; w is of second order in
+    smooth flow. Both pressures conserve entropy, and so does any blend with the same w from both ends.
     """
     eos: Any
 
 
 class Dissipation(NamedTuple):
-    """|S|/2 R L psi T R^T Dw: of jumps in sound, entropy and shear what no straight line explains, psi = s^m,
-    and more in shocks; of pressure what Jameson's limited mean leaves, but where flow turns or strains.
-    Points have gradients, edges lead along (dx, dy)    [Barth 1999; Jameson 1995]"""
+    """|S|/2 R L psi T R^T Dw: of jumps in sound, entropy and shear the part psi = s^m that no linear field
+    explains, and more in shocks; of pressure also what Jameson's limited mean leaves, except where the flow
+    rotates or strains. Points need gradients, edges (dx, dy)    [Barth 1999; Jameson 1995]"""
     eos: Any
 
 
 @formula
 def over_mean(a, b):
-    """ln(b/a)/2 over (b - a)/(b + a), by its series where both are near    [Ismail & Roe 2009]
+    """ln(b/a)/2 over (b - a)/(b + a), by a series that converges where a is near b    [Ismail & Roe 2009]
 
-    Without a branch: b is divided by the power of two that brings it nearest to a, from the bits of both.
+    Without a branch: a is first multiplied by the power of two, from the bits of both, that brings it near b.
     """
     two = (np.float64(b).view(np.uint64) + HALF - np.float64(a).view(np.uint64)) >> MANTISSA
     k, near = np.float64(np.int64(two) - 1023), a*np.uint64(two << MANTISSA).view(np.float64)
@@ -71,8 +71,8 @@ def over_mean(a, b):
 
 @generic
 def log_means(eos, a, b):
-    """rho* and e* of D(P/T) = rho* (D(g/T) - e* D(1/T)), g = e + P/rho - T s, between two points: of fluids
-    that have an entropy s."""
+    """Means rho*, e* of two points that satisfy D(P/T) = rho* (D(g/T) - e* D(1/T)), g = e + P/rho - T s; only
+    for fluids that have an entropy s."""
 
 
 log_means.of(IdealGas)(lambda eos, a, b: (0.5*(a.rho + b.rho)/over_mean(a.rho, b.rho),
@@ -107,9 +107,9 @@ def _(term, a, b, ab):
 
 @formula
 def bend(d, one, other, jump):
-    """psi of a difference d along an edge, twice what gradients at its ends say of it; and what the limited
-    mean of the differences before and behind, 2 a c/(a + c) of one sign, leaves of d    [Jameson 1995].
-    jump : which is dissipated, where it is not d."""
+    """psi of a difference d along an edge, and the share of d that the limited mean 2 a c/(a + c) of the
+    differences a, c before and behind the edge leaves    [Jameson 1995]. one, other : twice what gradients at
+    the two ends predict for d. jump : the dissipated difference, where it is not d."""
     a, c = one - d, other - d
     s = abs(a - 2*d + c)/(abs(a) + 2*max(abs(d), abs(jump)) + abs(c) + 1e-300)
     both = (a + c)*d
@@ -119,22 +119,22 @@ def bend(d, one, other, jump):
 
 @formula
 def calm(d, one, other, scale):
-    """Is psi below CALM, or all of it round-off?"""
+    """Whether psi is below CALM, or the bend of the field is round-off."""
     return abs(one + other - 4*d) <= STILL*(abs(one - d) + 2*abs(d) + abs(other - d)) + ROUNDING*scale
 
 
 @formula
 def turning(a):
-    """(rot v)^2, and by how much the strain's (u_x - v_y)^2 + (u_y + v_x)^2 exceeds (div v)^2, as it does
-    between vortices and in no plane wave."""
+    """(rot v)^2 plus the excess of the strain (u_x - v_y)^2 + (u_y + v_x)^2 over (div v)^2, which is positive
+    between vortices and zero in plane sound waves."""
     strain = (a.u_x - a.v_y)**2 + (a.u_y + a.v_x)**2
     return (a.v_x - a.u_y)**2 + max(0.0, strain - (a.u_x + a.v_y)**2)
 
 
 @formula
 def unturned(a, b, ab):
-    """(div v)^2 over it and `turning` of two points, 1 where neither is CALM of sound's passage: tells a
-    shock's bend of the pressure from what holds a vortex together    [Ducros et al. 1999]"""
+    """(div v)^2/((div v)^2 + `turning`) of two points; 1 where both are far below (CALM c/length)^2. Tells
+    shocks from the pressure field that holds a vortex together    [Ducros et al. 1999]"""
     along = ab.dx*ab.dx + ab.dy*ab.dy
     shrinks = CALM*CALM*a.c*b.c + along*((a.u_x + a.v_y)**2 + (b.u_x + b.v_y)**2)
     return shrinks/(shrinks + along*(turning(a) + turning(b)))
@@ -142,17 +142,17 @@ def unturned(a, b, ab):
 
 @formula
 def shock(a, b, ab, bend):
-    """Parts of what the limited mean leaves that dissipate: of the pressure, where its bend over 2 {P} is not
-    below what `astir` sees, and of all, which grows with it."""
+    """Shares of what the limited mean leaves that dissipate: that of pressure, zero where its bend over 2 {P}
+    is below the threshold of `astir`, and that of velocity and entropy, which grows with the bend."""
     wave, steep = unturned(a, b, ab), STEEPEST*bend
     return wave*max(0.0, 1 - CALM/(steep + 1e-300)), min(1.0, wave*steep)
 
 
 @formula
 def jumps(a, b, ab):
-    """Differences along an edge of P, rho, v_x and v_y, as in `bend`."""
+    """(d, one, other) of `bend` along an edge, for P, rho, v_x and v_y."""
     x, y, mean = 2*ab.dx, 2*ab.dy, 0.5*(a.rho + b.rho)
-    # to an image: pressure less the weight above, so that what leaves there comes back by its parent
+    # to an image: without hydrostatic pressure, so that the same comes back over the edge of its parent
     weight = mean*b.g
     P = (b.P - a.P + mean*b.hydro/b.rho + weight*ab.dy, x*a.P_x + y*(a.P_y + weight),
          x*b.P_x + y*(b.P_y - weight))
@@ -163,7 +163,7 @@ def jumps(a, b, ab):
 
 @formula
 def astir(a, b, ab, P, r, by_x, by_y):
-    """Does an edge dissipate? All of it is computed, for vector instructions, which no branch may end."""
+    """Whether an edge dissipates. Evaluates all conditions: a branch would prevent vector instructions."""
     sx, sy, (dP, P0, P1), (drho, r0, r1), (du, u0, u1), (dv, v0, v1) = ab.sx, ab.sy, P, r, by_x, by_y
     c2, both, speed = a.c*b.c, a.P + b.P, (abs(sx) + abs(sy))*(a.c + b.c)
     return not ((STEEPEST*abs(P0 + P1 - 4*dP) <= CALM*both) & calm(dP, P0, P1, both)
@@ -182,7 +182,7 @@ def _(term, a, b, ab):
 
 @formula
 def waves(eos, a, b, ab, P, r, by_x, by_y):
-    """What jumps in sound, along the normal, in entropy and in shear bring; differences as in `bend`."""
+    """Gains of a by dissipation of pressure waves, normal velocity, entropy and shear, from `jumps`."""
     size, cv, gamma = np.sqrt(ab.sx*ab.sx + ab.sy*ab.sy), eos.cv, 1 + 1/eos.cv
     nx, ny = ab.sx/max(size, 1e-300), ab.sy/max(size, 1e-300)
     (dP, P0, P1), (drho, r0, r1), (du, u0, u1), (dv, v0, v1) = P, r, by_x, by_y
@@ -198,7 +198,7 @@ def waves(eos, a, b, ab, P, r, by_x, by_y):
     rx, ry = 0.5*(a.rx + b.rx), 0.5*(a.ry + b.ry)
     flow, fast = np.sqrt(rx*rx + ry*ry), fastest(a, b, ab)
     slow = size*np.sqrt((rx*nx + ry*ny)**2 + (SLOW*flow)**2)
-    jump = drho/rho + dbeta*e       # of -s
+    jump = drho/rho + dbeta*e       # jump of -s
     sound = fast*max(of_P, steep*P_line)*rho/gamma*(jump - c2*cv*dbeta)
     across = fast*min(1.0, max(flow/np.sqrt(c2), sigma))*max(of_n, sigma*n_line)*mean*dun
     heat, along = slow*max(of_s, sigma*s_line)*rho*(gamma - 1)/gamma*jump, slow*of_t*mean*dut
@@ -209,21 +209,21 @@ def waves(eos, a, b, ab, P, r, by_x, by_y):
 
 @formula
 def against(a, b, ab):
-    """S/2.(v_a - {w}) and S/2.(v_b - {w}): of both ends against their edge, from r = w - v."""
+    """S/2.(v_a - {w}), S/2.(v_b - {w}): velocities of both ends relative to their edge, from r = w - v."""
     apart, both = ab.sx*(b.vx - a.vx) + ab.sy*(b.vy - a.vy), ab.sx*(a.rx + b.rx) + ab.sy*(a.ry + b.ry)
     return -0.5*(apart + both), 0.5*(apart - both)
 
 
 @formula
 def fastest(a, b, ab):
-    """|S|/2 (|(v - {w}).n| + c) of the faster one of two points."""
+    """|S|/2 (|(v - {w}).n| + c), the larger of two points' values."""
     size, (one, other) = np.sqrt(ab.sx*ab.sx + ab.sy*ab.sy), against(a, b, ab)
     return max(abs(one) + size*a.c, abs(other) + size*b.c)
 
 
 @generic
 def brought(eos, a, b, ab, P, r, by_x, by_y):
-    """What all four kinds of waves bring to a, of the fluid that there is."""
+    """Gains of a by dissipation of all four kinds of waves, by the type of the equation of state."""
 
 
 brought.of(IdealGas)(lambda eos, a, b, ab, P, r, by_x, by_y: waves(eos, a, b, ab, P, r, by_x, by_y))

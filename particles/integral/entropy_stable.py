@@ -1,4 +1,4 @@
-"""Layers whose flux survives shocks and vacua: listed `entropy_fluxes`, and steps that are `positive`."""
+"""Layers and streams that survive shocks and vacua: `entropy_fluxes`, with time steps of `positive`."""
 from dataclasses import dataclass, fields, replace
 from math import ceil, inf
 from typing import Any, ClassVar
@@ -33,7 +33,7 @@ def _sound(first, last, eos, points):
 
 @jit
 def _differ(first, last, slopes, beyond, points, differences):
-    """Of what friction and heat see, V grad v: that of the flow, but beyond a plate."""
+    """V grad v as friction and heating see it: that of the flow, except for images, of velocity u, not v."""
     for i in range(first, last):
         q, d = slopes[i], differences[i]
         d[0], d[1], d[2], d[3] = q[1], q[5], q[2], q[6]
@@ -55,7 +55,7 @@ def _went_on(first, last, dt, rates, state, before):
 
 @jit
 def _mirrored(origin, points, n):
-    """Gradients of images."""
+    """Gradients of images, mirrored from their parents."""
     for m in range(len(origin)):
         a, b = points[origin[m]], points[n + m]
         b.rho_x, b.P_x, b.u_x, b.v_y = a.rho_x, a.P_x, a.u_x, a.v_y
@@ -63,7 +63,7 @@ def _mirrored(origin, points, n):
 
 
 class Sent(Exchange):
-    """Listed terms, each edge once, and their stages."""
+    """Exchange that evaluates the listed terms once per edge, and their stages."""
 
     def __init__(self, stages: tuple[Stage, ...], sending: Sending, slopes: np.ndarray):
         self.stages, self.sending, self.slopes, self.total = stages, sending, slopes, sending.total
@@ -76,7 +76,7 @@ class Sent(Exchange):
 
 
 class Stable(Limits, FixedSums):
-    """What compiled sums over stored edges share, before those of a kind of scene."""
+    """Common part of the compiled sums over stored edges; a base class in front of a scene's `FixedSums`."""
 
     def __init__(self, method: Any, threads: Threads):
         super().__init__(method, threads)  # type: ignore[call-arg]
@@ -98,7 +98,7 @@ class Stable(Limits, FixedSums):
         self.spread = k/self.at.V
 
     def look_at(self, state: np.ndarray) -> None:
-        """Fields of points, images and held ones; gradients, of images as in a mirror; what terms need."""
+        """Compute fields and gradients of points and images, set those of held points, prepare the stages."""
         threads, n, points, method = self.threads, self.n, self.points, self.method
         threads(read, n, state, method.eos, method.law, points)
         self.surround(state)
@@ -114,11 +114,11 @@ class Stable(Limits, FixedSums):
                 stage.prepare(self.at)
 
     def longest(self) -> float:
-        """The step that is known to keep a state positive that was looked at."""
+        """Longest step that is known to keep rho, e > 0, for the state of the last `look_at`."""
         return float(1/PART/np.max(self.speeds/self.at.V/COURANT + self.spread*self.chi))
 
     def euler(self, state: np.ndarray, dt: float, rates: np.ndarray) -> bool:
-        """Go on by dt from a state with these rates; False: not even Rusanov's flux leaves rho, e > 0."""
+        """Euler step of a state in place, with its rates; False: not even Rusanov's flux keeps rho, e > 0."""
         self.threads(_went_on, self.n, dt, rates, state, self.before)
         less = self.less(self.before, state, dt/self.at.V)
         if less is None:
@@ -128,16 +128,16 @@ class Stable(Limits, FixedSums):
 
 
 class StableSums(Stable, LayerSums):
-    """Of a layer."""
+    """Compiled sums of a `StableLayer`."""
     method: "StableLayer"
 
 
 class StableStreaming(Stable, Streaming):
-    """Around held points. received (m, 3) : what they take, after `euler` the mean over it, with limits."""
+    """Compiled sums of a `StableStream`. received (m, 3) : as in `Streaming`, after `euler` with limits."""
     method: "StableStream"
 
     def settle(self) -> None:
-        """Held points take what would change their velocity or temperature."""
+        """Move what would change velocity or temperature of held points from `gain` to `more`."""
         held, kept = self.method.held, np.empty((4, self.n))
         keep(self.method.eos, *held[:3], self.gain, np.ones(self.n), self.points, self.more, kept)
         self.gain[held.which] = kept[:, held.which].T
@@ -150,7 +150,7 @@ class StableStreaming(Stable, Streaming):
 
 
 class Positive:
-    """Averaged Euler steps in as many parts as it takes for `sums.longest`, halved where that does not do."""
+    """Averaged Euler steps, in parts no longer than `sums.longest`; a part that fails is halved."""
     evaluations = len(OLD)
 
     def __init__(self, shape: tuple[int, ...], threads: Threads):
@@ -180,8 +180,8 @@ class Positive:
 
 
 def flow_of(method: Any, pressure: Any) -> None:
-    """Gives a method the usual terms if it lists none: a pressure for an ideal gas, the blended one for
-    others. Raises TypeError: its fluid has no entropy."""
+    """Set the default terms of a method that lists none, with the given pressure for an ideal gas and the
+    blended one for other fluids. Raises TypeError: the fluid has no entropy."""
     eos = method.eos
     check_formulas(eos, log_means)
     chosen = pressure if isinstance(eos, IdealGas) else BlendedPressure
@@ -198,12 +198,12 @@ class StableLayer(Layer):
 
     def __post_init__(self):
         flow_of(self, Pressure)
-        for name in ("edges", "beyond"):        # as at the end of a weight's range
+        for name in ("edges", "beyond"):        # some are empty at the end of a weight's range
             object.__setattr__(self, name, of_some_area(getattr(self, name)))
 
 
 def of_some_area(edges: Any) -> Any:
-    """Edges that anything passes."""
+    """Edges of nonzero area or conductance."""
     some = (edges.k != 0) | edges.S.any(axis=1)
     return replace(edges, **{field.name: getattr(edges, field.name)[some] for field in fields(edges)
                              if field.name != "V"})
@@ -211,7 +211,7 @@ def of_some_area(edges: Any) -> Any:
 
 @dataclass(frozen=True, kw_only=True)
 class StableStream(Stream):
-    """The same around held points."""
+    """A fluid with an entropy around held points. flow : as in `StableLayer`."""
     flow: tuple = ()
 
     integrator: ClassVar[type] = Positive
@@ -223,7 +223,7 @@ class StableStream(Stream):
 
 
 def longest(method: Any, start: np.ndarray) -> float:
-    """The step that keeps a start positive."""
+    """Longest step that is known to keep rho, e > 0 at the start."""
     sums = method.start(start.shape[1], Threads(1))
     sums.look_at(start)
     return float(sums.longest())

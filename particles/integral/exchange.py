@@ -1,8 +1,8 @@
-"""The one exchange over edges of all compiled schemes: listed terms in one sweep, and their stages.
+"""Exchange over edges, common to all compiled schemes: one sweep over the listed terms, and their stages.
 
-A term takes two points and their edge and gives what the first gains of mass, momentum (2) and
-energy    [RR98 Eqs 34-36, 51]. What is not listed is not compiled. A term that needs more than the fields of
-two points, such as gradients, has a stage.
+A term takes two points and their edge, and returns the first point's gain of mass, momentum (2) and
+energy    [RR98 Eqs 34-36, 51]. Terms that are not listed are not compiled. A term that needs more than the
+fields of two points, such as gradients, has a stage.
 """
 from functools import singledispatch
 from typing import Any, NamedTuple
@@ -16,26 +16,26 @@ from particles.threads import Threads
 
 
 class Convection(NamedTuple):
-    """What moves with the fluid: q_a v_b + q_b v_a for rho, rho v and eps."""
+    """Convection, q_a v_b + q_b v_a for q = rho, rho v and eps."""
 
 
 class Pressure(NamedTuple):
-    """P_ab = P(rho_a, T_b) and P_ba; images have a hydrostatic part besides. Momentum is that of P_ab + P_ba
-    - 2 P_a, where the number P_a of the row is not left at zero: see `fixed.OwnPressure`."""
+    """Crossed pressures P_ab = P(rho_a, T_b) and P_ba, with a hydrostatic part for images. The force is that
+    of P_ab + P_ba - 2 P_a; field P is the point's own pressure, or zero if unset: see `fixed.OwnPressure`."""
     eos: Any
 
 
 class Friction(NamedTuple):
-    """Force along the edge and its work, of a share of the viscosity    [Eq. 51, zeta = 0, d = 2]"""
+    """Friction along the edge and its work, for a share of the viscosity    [Eq. 51, zeta = 0, d = 2]"""
     share: float = 1.0
 
 
 class Conduction(NamedTuple):
-    """Heat along the edge, of a share of the conductivity    [Eq. 51]"""
+    """Heat conduction along the edge, for a share of the conductivity    [Eq. 51]"""
     share: float = 1.0
 
 
-#: friction and heat as Eq. 51 has them; heat first costs 15 % more where pairs divide, see `Listing`
+#: friction and heat of Eq. 51; heat first costs 15 % more with terms that divide, see `Listing`
 PRINTED = (Friction(), Conduction())
 
 
@@ -71,26 +71,26 @@ def _(term, a, b, ab):
 
 
 class Listing(NamedTuple):
-    """The sum of the terms in their order, which decides what shares vectors."""
+    """Sum of terms, added in this order, which decides what shares a vector instruction."""
     terms: tuple
 
 
-#: the order in which five terms are fastest, of those tried in bench/points_speed
+#: fastest order of these five terms, of the orders tried in bench/points_speed
 FAST = ("Convection", "Friction", "Mending", "Pressure", "Conduction")
 
 
 def listed(terms: tuple) -> Listing:
-    """Terms in the order that is known to be fast for them, else as given."""
+    """Terms in the order FAST if they are these five, otherwise in the given order."""
     by_name = {type(term).__name__: term for term in terms}
     return Listing(tuple(map(by_name.get, FAST)) if by_name.keys() == {*FAST} else terms)
 
 
 def onto(before: tuple, terms: tuple, a: Any, b: Any, ab: Any) -> Any:
-    """A sum, and the rates of all terms."""
+    """Add the rates of all terms to a sum."""
 
 
 def plus(one: tuple, other: tuple) -> Any:
-    """Element by element, where zeros cost nothing."""
+    """Add tuples element by element; adding zeros costs nothing."""
 
 
 @overload(onto)
@@ -112,7 +112,7 @@ rate.of(Listing)(lambda term, a, b, ab: onto(rate(term.terms[0], a, b, ab), term
 
 
 class At(NamedTuple):
-    """Where points exchange: records, those of images last; edges; what images are of; volumes."""
+    """Data of an exchange: records of points, then of images; edges; parents of images; volumes."""
     points: np.ndarray
     edges: Any
     images: Any
@@ -120,37 +120,37 @@ class At(NamedTuple):
 
 
 class Stage:
-    """What a term needs besides its sweep; by default nothing."""
+    """Work that a term needs before or after the sweep; none by default."""
 
     def prepare(self, at: At) -> None:
-        """Fields that the sweep reads, from those of points and images."""
+        """Compute fields that the sweep reads, from the fields of points and images."""
 
     def use(self, slopes: np.ndarray, at: At) -> None:
-        """The same from slopes, V times d_x u, d_y u, d_x v, d_y v, that a scheme needs besides."""
+        """As `prepare`, with slopes V (d_x u, d_y u, d_x v, d_y v) that the scheme has computed already."""
 
     def add(self, at: At, total: np.ndarray) -> None:
-        """What the sweep leaves out."""
+        """Add to `total` what the sweep leaves out."""
 
     def heat(self, i: np.ndarray, image: np.ndarray, S: np.ndarray) -> float:
-        """What goes through areas S (m, 2) from images to points, besides conduction along edges."""
+        """Heat per time from images to points through areas S (m, 2), without conduction along edges."""
         return 0.0
 
 
 @singledispatch
 def stages_of(term: Any, law: Any, n: int, threads: Threads, *more: Any) -> tuple[Stage, ...]:
-    """What a term of a fluid with some transport law needs; nothing for most."""
+    """Stages of a term for a fluid with a transport law; most terms have none."""
     return ()
 
 
 class Exchange:
-    """All listed terms over edges. term : their `Listing`, or what a scheme makes of it."""
+    """Sum of all listed terms over edges. term : their `Listing`, or a term that contains one."""
 
     def __init__(self, term: Any, stages: tuple[Stage, ...], n: int, threads: Threads):
         self.term, self.stages, self.n, self.threads = term, stages, n, threads
         self.total = np.zeros((n, len(zero(term))))
 
     def sum(self, at: At) -> np.ndarray:
-        """What each point gains, (n, columns), in an array that the next sum overwrites."""
+        """Gain of each point, (n, columns), in an array that the next sum overwrites."""
         self.threads(sweep, self.n, self.term, at.points, at.edges, self.total)
         for stage in self.stages:
             stage.add(at, self.total)
@@ -158,6 +158,6 @@ class Exchange:
 
 
 def stages(terms: tuple, law: Any, n: int, threads: Threads, *more: Any) -> tuple[Stage, ...]:
-    """Of all terms; `more`: how they read what is no stored edge."""
+    """Stages of all terms. more : how stages read pairs that are not stored edges."""
     return tuple(stage for term in terms for stage in stages_of(term, law, n, threads, *more))
 

@@ -1,4 +1,4 @@
-"""What goes through the faces between moving points, compiled: terms and loops of `closed_faces`, in 2D."""
+"""Compiled terms and loops of `closed_faces`: exchange through faces between moving points, in 2D."""
 from typing import NamedTuple
 
 import numpy as np
@@ -8,7 +8,7 @@ from continuum.jit import jit
 from particles.integral.exchange import Listing
 from particles.pairs import pair_term, rate
 
-#: convection and pressure see vx .. theta; friction and heat ux, uy, Td; F mends the heating; g is grad P'
+#: convection, pressure read vx .. theta, g = grad P'; friction, heat ux, uy, Td; `Mending` F
 Point = np.dtype([(name, "f8") for name in ("vx", "vy", "P", "rho", "e", "per_c", "shift_x", "shift_y",
                                             "theta", "gx", "gy", "ux", "uy", "Td", "eta", "k", "Fx", "Fy")])
 
@@ -18,7 +18,7 @@ class FaceDifferences(NamedTuple):
 
 
 class FaceExchange(NamedTuple):
-    """What a face lets through: mass, momentum, energy, volume twice (with the fluid, between points)."""
+    """Gains through a face: mass, momentum, energy, volume that flows, volume that points pass on."""
     follow: float
     spread: float
     smooth: float
@@ -59,7 +59,7 @@ def read(first, last, state, eos, law, g0, shift, count, points):
 
 @jit
 def read_images(n, origin, turn, plate_T, points):
-    """Shifted images are their origins; mirrored ones have even and odd fields."""
+    """Copy fields of origins to images; odd fields change sign in mirrored ones."""
     for g in range(len(origin)):
         a, b = points[origin[g]], points[n + g]
         b.vx, b.P, b.rho, b.e, b.per_c = a.vx, a.P, a.rho, a.e, a.per_c
@@ -70,7 +70,7 @@ def read_images(n, origin, turn, plate_T, points):
 
 @jit
 def pressure_slopes(first, last, slopes, V, points):
-    """grad P'."""
+    """Set grad P' from its slopes."""
     for i in range(first, last):
         a = points[i]
         a.gx, a.gy = slopes[i, 4]/V[i], slopes[i, 5]/V[i]
@@ -78,7 +78,7 @@ def pressure_slopes(first, last, slopes, V, points):
 
 @jit
 def per_time(first, last, total, state, points, g, rho0, P0, out):
-    """Gravity bears rho0 already; the pressure left out works on what the volume changes with the fluid."""
+    """Static pressure carries the weight of rho0; the pressure left out works on volume that flows."""
     for i in range(first, last):
         mass, px, py, through, flow, left = total[i]
         out[4, i], out[5, i] = px, py - g*(state[6, i] - rho0*state[7, i])

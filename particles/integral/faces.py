@@ -5,8 +5,8 @@ With x_ij = x_j - x_i, F = -w'/r of a weight w and volumes V:
     B_i = (sum_j V_j F x x)^-1,  s_i = 2/sum_j V_j F r^2,  k_ij = V_i V_j F (s_i + s_j)
     S_ij = V_i V_j F (B_i + B_j) x_ij + k_ij [phi_j - phi_i + (psi_i + psi_j).x_ij]
 
-phi, psi from sum_j S_ij = 0 and 1/2 sum_j S_ij x_ij = V_i 1: symmetric positive equations, solved by
-conjugate gradients from what was found before.
+phi, psi follow from sum_j S_ij = 0 and 1/2 sum_j S_ij x_ij = V_i 1: symmetric positive equations, solved by
+conjugate gradients that start from the last solution.
 """
 from typing import NamedTuple
 
@@ -17,14 +17,14 @@ from particles.lists import PairLists, ghosts_of
 from particles.neighbours import u64
 from particles.pairs import Faces, pair_term, sweep
 
-#: the solution of the equations for faces
+#: unknowns of the equations for faces
 POTENTIALS = ("phi_x", "psi_xx", "psi_xy", "phi_y", "psi_yx", "psi_yy")
 Metric = np.dtype([(name, "f8") for name in ("V", "xx", "xy", "yy", "s")])
 Potential = np.dtype([(name, "f8") for name in POTENTIALS])
 
 
 class Closing(NamedTuple):
-    """Closure and moments of k [phi_j - phi_i + (psi_i + psi_j).x_ij], for S_x and S_y."""
+    """Closure, with a minus, and moments of k [phi_j - phi_i + (psi_i + psi_j).x_ij], for S_x and S_y."""
 
 
 @pair_term(Closing, 6)
@@ -35,10 +35,10 @@ def _(term, a, b, ab):
 
 
 class FaceMaker:
-    """Makes faces of points, closed by so many `iterations` at most, to the residual `within`.
+    """Makes faces between points, closed by at most `iterations` steps, to the relative residual `within`.
 
-    faces, count (n,), pull (n, 2) : what was made last, the density of points, the sum of V_j F x_ij that
-    pulls points to where they are dense. ghosts : of the lists.
+    faces : those made last. count (n,) : number density of points. pull (n, 2) : sum_j V_j F x_ij, towards
+    denser points. ghosts : those of the neighbour lists.
     """
 
     def __init__(self, around: PairLists, iterations: int, within: float):
@@ -48,10 +48,10 @@ class FaceMaker:
         self.lists_made, self._store = -1, np.empty((5, 0))
 
     def make(self, state: np.ndarray, V: np.ndarray, solution: np.ndarray) -> None:
-        """Pairs and faces of points at state[:2] with volumes (n,); solution (6, n) in place."""
+        """Make pairs and faces of points at state[:2] with volumes V (n,); solution (6, n) in place."""
         around, n, pairs = self.around, self.n, self.around.pairs
         around.place(state, 1.0)
-        if self.lists_made != around.lists_made:        # as many ghosts as before may be those of others
+        if self.lists_made != around.lists_made:        # as many ghosts may have other origins
             self.lists_made, self.ghosts = around.lists_made, ghosts_of(around)
             self.metric, self.potential = (np.zeros(len(around.x), kind) for kind in (Metric, Potential))
         if self._store.shape[1] != len(pairs.near):
@@ -67,7 +67,7 @@ class FaceMaker:
             self._close(solution)
 
     def _close(self, solution: np.ndarray) -> None:
-        """Add to the faces what closes them and makes them exact."""
+        """Correct the faces so that they close and are exact on linear fields."""
         n, (wanted, scale) = self.n, np.empty((2, self.n, 6))
         self.threads(_lacking_faces, n, self.faces, self.metric, wanted, scale)
         x = solution.T.copy()
@@ -81,7 +81,7 @@ class FaceMaker:
         self.threads(sweep, self.n, Closing(), self.potential, self.faces, out)
 
     def _solve(self, x: np.ndarray, wanted: np.ndarray, scale: np.ndarray) -> None:
-        """Jacobi-preconditioned conjugate gradients, x in place."""
+        """Solve for x in place by Jacobi-preconditioned conjugate gradients."""
         product = np.empty_like(x)
         self._apply(x, product)
         r = wanted - product
@@ -101,13 +101,13 @@ class FaceMaker:
 
 
 def inner(a: np.ndarray, b: np.ndarray) -> float:
-    """Sum of products, not by BLAS, whose threads sum in another order."""
+    """Sum of products, without BLAS, whose threads would sum in another order."""
     return float((a*b).sum())
 
 
 @jit
 def _metric(first, last, pairs, x, y, metric, shift):
-    """B, s and the pull towards even spacing sum_j V_j F x_ij of each point."""
+    """B, s and the pull sum_j V_j F x_ij of each point, which is zero at even spacing."""
     for i in range(first, last):
         xx, xy, yy, px, py = 0.0, 0.0, 0.0, 0.0, 0.0
         for k in range(pairs.first[i], pairs.first[i] + pairs.taken[i]):
@@ -135,7 +135,7 @@ def _open_faces(first, last, pairs, x, y, metric, faces):
 
 @jit
 def _lacking_faces(first, last, faces, metric, wanted, scale):
-    """What sum_j S and sum_j S x_ij lack, for S_x and S_y, and the diagonal of the equations for phi, psi."""
+    """Residuals of closure and exactness, for S_x and S_y, and the diagonal of the equations for phi, psi."""
     for i in range(first, last):
         cx, cy, xx, xy, yx, yy, k0, kx, ky = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
         for k in range(faces.first[i], faces.first[i] + faces.taken[i]):

@@ -1,4 +1,4 @@
-"""What methods on fixed points share, in 2D: stored edges, fields, rates, for the time loop."""
+"""Common parts of methods on fixed points, in 2D: stored edges, fields, and rates for the time loop."""
 from math import fsum
 from typing import Any, ClassVar
 
@@ -18,21 +18,21 @@ from particles.neighbours import u32, u64
 from particles.pairs import Stored
 from particles.threads import Threads
 
-#: convection and pressure see vx .. eps, hydro; friction and heat ux, uy, Td; F mends the heating; P is own
+#: convection, pressure read vx .. eps, hydro; friction, heat ux, uy, Td; `Mending` F; P: `OwnPressure`
 FIELDS = "rho vx vy T eps ux uy Td eta k Fx Fy hydro P"
 Point = np.dtype([(name, "f8") for name in FIELDS.split()])
 NO_IMAGES = Ghosts(NOWHERE, np.empty(0), np.empty(0))
 
 
 def opened(edges: Stored) -> np.ndarray:
-    """sum_j S_ij of each row, images included, exact: (n, 2), zero where edges close."""
+    """Open area sum_j S_ij of each row, images included, (n, 2): summed exactly, zero where edges close."""
     return np.array([[2*fsum(part) for part in np.split(q, edges.first[1:])]
                      for q in (edges.sx, edges.sy)]).T.copy()
 
 
 class OwnPressure(Stage):
-    """Sets P of a row's own point, which `Pressure` takes off twice, and takes it off the open area: whole
-    pressures would leave a rounding in every row, one way at every step. open (n, 2) : of `opened`."""
+    """Sets each row's own P, which `Pressure` subtracts twice, and adds its force on the open area: whole
+    pressures would leave a rounding in every row, of one sign at all steps. open (n, 2) : of `opened`."""
 
     def __init__(self, eos: Any, open: np.ndarray, n: int, threads: Threads):
         self.eos, self.open, self.n, self.threads = eos, open, n, threads
@@ -60,7 +60,7 @@ def _open(first, last, open, points, total):
 
 
 class OnPoints:
-    """What fluids on fixed points x (n, 2) share. sums : the class of what their time loop sums."""
+    """Common part of fluids on fixed points x (n, 2). sums : class of their compiled sums."""
     x: Any
     edges: Any
     eos: Any
@@ -71,25 +71,25 @@ class OnPoints:
 
     @property
     def fastest(self) -> tuple[float, float]:
-        """Largest frequency of sound over its speed, largest rate of diffusion over diffusivity."""
+        """Largest frequency of sound over its speed, largest rate of diffusion over the diffusivity."""
         return self.edges.fastest
 
     def state(self, rho: Any, v: np.ndarray, T: Any) -> np.ndarray:
-        """(4, n) of densities, velocities (n, 2), temperatures."""
+        """State (4, n) from densities, velocities (n, 2) and temperatures."""
         return densities(self.eos, rho*np.ones(len(self.x)), v, T)
 
     def fields(self, state: np.ndarray) -> Fields:
         return from_densities(self.eos, self.x, self.edges.V, state[0], state[1:3], state[3])
 
     def start(self, n: int, threads: Threads) -> Any:
-        """The sums over stored edges. Raises ValueError: the state has not as many points as there are."""
+        """The sums over stored edges. Raises ValueError: n is not the number of points."""
         check_number(n, len(self.x))
         return self.sums(self, threads)
 
 
 @limit_of.register
 def _(method: OnPoints, start: np.ndarray) -> float:
-    """RK4: the fastest sound and diffusion of edges and images together, at the hottest point."""
+    """Stability limit of RK4: the fastest sound and the fastest diffusion added, over edges and images."""
     rho = start[0]
     e = start[3]/rho - (start[1]**2 + start[2]**2)/(2*rho**2)
     check_state(method.eos, rho, e)
@@ -99,7 +99,7 @@ def _(method: OnPoints, start: np.ndarray) -> float:
 
 
 class FixedSums(Sums):
-    """Compiled sums over stored edges. images : a tuple of arrays, one number for each of them. push (2,) :
+    """Compiled sums over stored edges. images : arrays, one entry per image, such as `Ghosts`. push (2,) :
     force per mass."""
 
     def __init__(self, method: Any, threads: Threads, edges: Stored, images: Any, push: tuple[float, float],
@@ -112,14 +112,14 @@ class FixedSums(Sums):
         self.exchange = Exchange(listed(terms), (*first, *needed), self.n, threads)
 
     def look_at(self, state: np.ndarray) -> None:
-        """Fields of all points and images, and what terms need of them."""
+        """Compute fields of points and images, and prepare the stages."""
         self.threads(read, self.n, state, self.method.eos, self.method.law, self.points)
         self.surround(state)
         for stage in self.exchange.stages:
             stage.prepare(self.at)
 
     def surround(self, state: np.ndarray) -> None:
-        """Fields of images, and of points whose fields are given."""
+        """Set fields of images and of held points; there are none here."""
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
         """d(state)/dt of a state (4, n), written to `out`    [Eqs 34-36, 51]"""
@@ -142,7 +142,7 @@ def inner(rho, px, py, eps):
 
 @jit
 def first_invalid(state, eos):
-    """The first point that the equation of state does not take; their number if there is none."""
+    """The first point outside the validity of the equation of state; n where there is none."""
     for i in range(state.shape[1]):
         rho, e = inner(state[0, i], state[1, i], state[2, i], state[3, i])
         if not valid(eos, rho, e):
@@ -151,13 +151,13 @@ def first_invalid(state, eos):
 
 
 def check_number(n: int, points: int) -> None:
-    """Refuse a state of other points."""
+    """Raise ValueError if a state has another number of points."""
     if n != points:
         raise ValueError(f"a state of {n} points for {points} fixed ones: make it with `state`")
 
 
 def stored(edges: Edges, beyond: Beyond = NONE_BEYOND, image: np.ndarray = NOWHERE) -> Stored:
-    """Edges by rows: those to other points, in both directions, and those to images, numbered `image`."""
+    """Edges stored by rows: to other points, in both directions, and to images, of indices `image`."""
     rows = np.concatenate([edges.i, edges.j, beyond.i])
     near = np.concatenate([edges.j, edges.i, image])
     order = np.lexsort((near, rows))
@@ -181,7 +181,7 @@ def read(first, last, state, eos, law, points):
 
 @jit
 def driven(first, last, total, V, points, push, out):
-    """Rates of free points: what edges bring, and the force per mass."""
+    """Rates of free points: gains over edges per volume, and the force per mass."""
     for i in range(first, last):
         a = points[i]
         out[0, i], out[1, i] = total[i, 0]/V[i], total[i, 1]/V[i] + push[0]*a.rho

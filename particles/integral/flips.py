@@ -1,4 +1,4 @@
-"""Flips of a triangulation that is held as rings, compiled, and what a flip hands over."""
+"""Compiled flips of a triangulation stored as rings, and the transfer between points in a flip."""
 import numpy as np
 
 from continuum.fluid import temperature
@@ -6,13 +6,13 @@ from continuum.jit import formula, jit
 from particles.integral.rings import FLAT, apart
 from particles.neighbours import u32, u64
 
-#: rows of what is exchanged: volumes, and what goes with them
+#: rows of the exchanged quantities: volume; momentum, mass and energy, which it carries
 VOLUME, CARRIED = 3, (0, 1, 2, 4)
 
 
 @jit
 def slot(rings, i, j):
-    """Where j stands in the ring of i, counted in all entries; the end of the ring if it does not."""
+    """Entry of j in the ring of i, as an index into all entries; the end of the ring if j is not in it."""
     e = rings.edges.first[i]
     end = e + u64(rings.edges.taken[i])
     while e < end and rings.edges.near[e] != j:
@@ -22,7 +22,7 @@ def slot(rings, i, j):
 
 @formula
 def beside(rings, i, e):
-    """Neighbours of i after and before entry e."""
+    """Neighbours of i after and before entry e of its ring."""
     begin, near = rings.edges.first[i], rings.edges.near
     end = begin + u64(rings.edges.taken[i]) - u64(1)
     after, before = near[e + u64(1) if e < end else begin], near[e - u64(1) if e > begin else end]
@@ -31,7 +31,7 @@ def beside(rings, i, e):
 
 @jit
 def drop(rings, i, e):
-    """Take entry e out of the ring of i."""
+    """Remove entry e from the ring of i."""
     near, end = rings.edges.near, rings.edges.first[i] + u64(rings.edges.taken[i]) - u64(1)
     for s in range(e, end):
         near[s] = near[s + u64(1)]
@@ -40,7 +40,7 @@ def drop(rings, i, e):
 
 @jit
 def put(rings, i, e, j):
-    """Put j behind entry e of the ring of i."""
+    """Insert j after entry e of the ring of i."""
     near, s = rings.edges.near, rings.edges.first[i] + u64(rings.edges.taken[i])
     while s > e + u64(1):
         near[s] = near[s - u64(1)]
@@ -56,7 +56,7 @@ def is_full(rings, i):
 
 @jit
 def lengthen(rings, i):
-    """Let the full ring of i go on behind all others, in twice its room; False: there is none."""
+    """Move the full ring of i behind all others, with twice its capacity; False: memory is exhausted."""
     edges, begin, room, end = rings.edges, rings.edges.first[i], u64(rings.room[i]), u64(rings.end[0])
     if end + u64(2)*room > len(edges.near):
         return False
@@ -67,7 +67,7 @@ def lengthen(rings, i):
 
 @formula
 def doubled(x, y, size, per, i, j, k):
-    """Twice the area of a triangle, positive counterclockwise."""
+    """Twice the area of the triangle (i, j, k), positive if it is counterclockwise."""
     jx, jy = apart(x, y, size, per, i, j)
     kx, ky = apart(x, y, size, per, i, k)
     return jx*ky - jy*kx
@@ -75,7 +75,7 @@ def doubled(x, y, size, per, i, j, k):
 
 @formula
 def cotangents(x, y, size, per, i, j, k, l):
-    """cot_k + cot_l of the triangles (i, j, k), (i, l, j) at an edge (i, j)."""
+    """cot_k + cot_l of the angles opposite to edge (i, j) in the triangles (i, j, k), (i, l, j)."""
     jx, jy = apart(x, y, size, per, i, j)
     kx, ky = apart(x, y, size, per, i, k)
     lx, ly = apart(x, y, size, per, i, l)
@@ -84,12 +84,12 @@ def cotangents(x, y, size, per, i, j, k, l):
 
 @jit
 def flips(at, state, eos, rings, crossed, changed, stack):
-    """Flip until no edge is to be: (number of flips, -1) or (flips so far, a point without room in its ring).
+    """Flip edges until all are Delaunay's: (number of flips, -1) or (flips so far, a point with a full ring).
 
-    at (2, n) : places that decide; volumes belong to those in the state, of `carried`. A flip takes (i, j),
-    with k left and l right of it, for (l, k), and moves as much of what the four points have as the volume
-    that changes hands carries: conservative, and exact on linear fields save where densities or temperatures
-    would fall by half. changed : points whose rings have changed. stack (m, 2) : room for edges to look at.
+    at (2, n) : positions that decide on flips; volumes belong to those in the state, of `carried`. A flip
+    replaces edge (i, j), with k on its left and l on its right, by (l, k), and transfers mass, momentum and
+    energy with volume: conservative, and exact on linear fields unless a density or temperature would fall
+    by half. changed : points whose rings have changed. stack (m, 2) : scratch memory for edges to check.
     """
     x, y = at
     size, per, near, count = rings.size, rings.per, rings.edges.near, 0
@@ -107,7 +107,7 @@ def flips(at, state, eos, rings, crossed, changed, stack):
             i, j = stack[top]
             entry, back = slot(rings, i, j), slot(rings, j, i)
             if entry == rings.edges.first[i] + u64(rings.edges.taken[i]) or on_side(rings, i, entry):
-                continue        # it went in another flip, or has a triangle on one side only
+                continue        # removed by another flip, or with a triangle on one side only
             k, l = beside(rings, i, entry)
             if 0.5*cotangents(x, y, size, per, i, j, k, l) >= FLAT:
                 continue
@@ -133,16 +133,16 @@ def flips(at, state, eos, rings, crossed, changed, stack):
 
 @formula
 def on_side(rings, i, e):
-    """Is entry e of the ring of i an edge along a side?"""
+    """Whether entry e of the ring of i is an edge along a side."""
     begin = rings.edges.first[i]
     return rings.rim[i] and (e == begin or e + u64(1) == begin + u64(rings.edges.taken[i]))
 
 
 @jit
 def remap(x, y, size, per, eos, exchanged, i, j, k, l, old, new):
-    """What a flip moves between four points, places of the volumes: dV is a third of the areas' changes.
+    """Transfer between the four points of a flip: dV is a third of the change of triangle area at a point.
 
-    old, new (5, 4) : room for what they have.
+    x, y : positions to which volumes belong. old, new (5, 4) : scratch memory for the exchanged quantities.
     """
     left, right = doubled(x, y, size, per, i, j, k)/2, doubled(x, y, size, per, i, l, j)/2
     at_i, at_j, both = doubled(x, y, size, per, i, l, k)/2, doubled(x, y, size, per, j, k, l)/2, left + right
@@ -161,7 +161,7 @@ def remap(x, y, size, per, eos, exchanged, i, j, k, l, old, new):
 
 @formula
 def along_slopes(old, dV, new):
-    """Volume with what its point has; what is too much then goes from all: exact on linear fields."""
+    """Volume carries densities of its own point; the excess is taken from all: exact on linear fields."""
     all_volume = old[VOLUME].sum()
     for row in CARRIED:
         excess = 0.0
@@ -174,7 +174,7 @@ def along_slopes(old, dV, new):
 
 @formula
 def from_givers(old, dV, new):
-    """Volume from those that lose some, with what they have: what comes is a mean, of first order."""
+    """Lost volume carries its point's densities; gained volume has the mean of what is lost: first order."""
     for row in CARRIED:
         given, volume = 0.0, 0.0
         for c in range(4):
@@ -187,7 +187,7 @@ def from_givers(old, dV, new):
 
 @formula
 def sound(eos, old, new):
-    """Has none of four points less than half of the smallest density or temperature that there was?"""
+    """Whether the smallest density and temperature of the four points stay above half of what they were."""
     rho, T, low_rho, low_T = np.inf, np.inf, np.inf, np.inf
     for c in range(4):
         one, other = density_and_temperature(eos, old, c), density_and_temperature(eos, new, c)

@@ -2,8 +2,8 @@
 
     grad A(r) = -lim int A(r') e W(|r - r'|) dr', e = (r - r')/|r - r'|    [RR98 Eq. 1]
 
-Any weight f will do: those of `weights` (compact), the paper's exponential (Eqs 30, 31) and the Gaussian,
-which have tails and singularities of their own and so serve operators on few points, not the fast loops.
+Any normalised weight f can be used: the compact ones of `particles.weights`, and the paper's exponential
+(Eqs 30, 31) and the Gaussian, whose tails and singularities suit operators on few points, not fast loops.
 """
 import warnings
 from collections.abc import Callable
@@ -18,7 +18,7 @@ from continuum.jit import generic, jit
 from particles.weights import Weight, value_and_slope
 
 NEGLIGIBLE = 1e-16      # share of the first moment beyond the reach of a weight with a tail
-SEEN = 1e-2             # error of linear gradients from which on a violated Eq. 45 is told
+SEEN = 1e-2             # error of linear gradients above which a violated Eq. 45 gives a warning
 
 
 def sphere(d: int) -> float:
@@ -40,7 +40,7 @@ class Gaussian(NamedTuple):
 
 @generic
 def f(weight, r):
-    """The weight f(r), integral 1 in d dimensions."""
+    """The weight f(r), of integral 1 in d dimensions."""
 
 
 @generic
@@ -50,12 +50,12 @@ def W(weight, r):
 
 @generic
 def reach(weight):
-    """Distance from which on W is zero, or carries less than 1e-16 of the first moment."""
+    """Distance beyond which W is zero or carries less than 1e-16 of the first moment."""
 
 
 @generic
 def width(weight):
-    """The length r0 in which moments are measured: of compact weights their range h."""
+    """Length r0, the unit of moments; the range h of compact weights."""
 
 
 f.of(Exponential)(lambda weight, r: np.exp(-r/weight.r0)/(weight.r0*sphere(weight.d)*r**(weight.d - 1)))
@@ -74,7 +74,7 @@ def _tail(share: Callable[[float], float]) -> float:
     return r
 
 
-# first moment beyond r: int W r dV = int (d f + ...) in parts, gamma functions of r/r0
+# first moment beyond r: int W r dV by parts, int (d f + ...), gives gamma functions of r/r0
 reach.of(Exponential)(lambda weight: weight.r0*_tail(lambda r: float(gammaincc(2, r))
                                                      + (weight.d - 1)*np.exp(-r)))
 reach.of(Gaussian)(lambda weight: weight.r0*_tail(lambda r: float(gammaincc(weight.d/2 + 1, r*r/2))))
@@ -115,7 +115,7 @@ class OrderingWarning(UserWarning):
 
 def check_ordering(weight: Any, d: int, a: float, error: float,
                    wrong: str = "gradients of linear fields are") -> None:
-    """Warn where r0 is below the spacing a = (dV)^(1/d) and the error of what is `wrong` is seen."""
+    """Warn if r0 is below the spacing a = (dV)^(1/d) and the error of what is `wrong` exceeds SEEN."""
     r0 = width(weight)*float(np.sqrt(moment(weight, 3, d)/(d + 2)))        # sqrt(int r^2 f dV)
     if r0 < a and error > SEEN:
         warnings.warn(f"r0 = {r0:.3g} (rms width of {type(weight).__name__}) is below the spacing {a:.3g}, "
@@ -124,7 +124,7 @@ def check_ordering(weight: Any, d: int, a: float, error: float,
 
 
 def check(weight: Any, d: int) -> None:
-    """Refuse a weight whose M_1 is not d, or without a width: ValueError."""
+    """Raise ValueError unless a weight has M_1 = d and a positive, finite width."""
     name = "range h" if isinstance(weight, Weight) else "width r0"
     if not 0 < width(weight) < np.inf:
         raise ValueError(f"the {name} of {type(weight).__name__} must be positive and finite, got "

@@ -1,7 +1,7 @@
-"""Both ends of a block of edges, field by field, as vector instructions read them.
+"""Fields of both ends of a block of edges, stored field by field for vector instructions.
 
-Points are records whose first lines, of eight numbers each, hold what edges read. An instruction that gathers
-one field of eight points takes longer than to read a line of each and to turn them: eight fields at a time.
+Points are records; their first cache lines, of eight numbers each, hold the fields that edges read. To read
+one line of each of eight points and transpose them is faster than to gather field by field.
 """
 from typing import Any, NamedTuple
 
@@ -15,26 +15,26 @@ from particles.neighbours import u64
 
 BLOCK, EIGHT = u64(64), u64(8)
 SLOPES = ("rho_x", "u_x", "v_x", "P_x", "rho_y", "u_y", "v_y", "P_y")
-#: three lines; r = w - v
+#: fields of the first three cache lines of a point; r = w - v
 FIELDS = ("rho", "vx", "vy", "P", "T", "hydro", "rx", "ry", "eta", "k", "ux", "uy", "Td", "Fx", "Fy", "c",
           *SLOPES)
 COLUMNS = u64(len(FIELDS))
-#: density, momentum and energy by Rusanov's flux; a step per volume and edge
+#: density, momentum and energy by Rusanov's flux; time step over volume, times the number of edges
 LOW = ("low_rho", "low_px", "low_py", "low_eps", "room")
-#: of a fourth line few terms read anything; g of images, e of points that move
+#: few terms read the rest of a record; g is that of images, e that of points that move
 Point = np.dtype([(name, "f8") for name in (*FIELDS, "eps", "g", "e", *LOW)])
 End: Any = NamedTuple("End", [(name, float) for name in (*FIELDS, "eps", "g")])     # type: ignore[misc]
 
 
 def vector_at(builder: Any, array: Any, row: Any, column: Any) -> Any:
-    """Eight numbers of an array of two axes."""
+    """Pointer to eight numbers of an array of two axes."""
     width = builder.extract_value(array.shape, 1)
     at = builder.gep(array.data, [builder.add(builder.mul(row, width), column)])
     return builder.bitcast(at, ir.VectorType(ir.DoubleType(), 8).as_pointer())
 
 
 def turned(builder: Any, rows: list) -> list:
-    """Columns of eight rows of eight numbers: of any two, squares of 1, 2 and 4 change places."""
+    """Transpose eight rows of eight numbers: pairs of rows swap blocks of 1, then 2, then 4 numbers."""
     mask = ir.VectorType(ir.IntType(32), 8)
     for d in (1, 2, 4):
         low = [j + 8 - d if j & d else j for j in range(8)]
@@ -64,7 +64,7 @@ def _turn(typing: Any, lines: Any, which: Any, first: Any, c: Any, lanes: Any, h
 
 @jit
 def read_lanes(lines, which, first, lanes):
-    """lanes (COLUMNS, BLOCK) = FIELDS of the points of a block of edges."""
+    """Fill lanes (COLUMNS, BLOCK) with FIELDS of the points `which` of a block of edges."""
     for h in range(u64(0), BLOCK, EIGHT):
         for c in range(u64(0), COLUMNS, EIGHT):
             _turn(lines, which, first + h, c, lanes, h)
@@ -72,7 +72,7 @@ def read_lanes(lines, which, first, lanes):
 
 @formula
 def end_at(q, h, point):
-    """A point as terms read it, of lanes, and the rest of its record."""
+    """A point as terms read it: FIELDS from column h of the lanes q, the rest from its record."""
     return End(q[0, h], q[1, h], q[2, h], q[3, h], q[4, h], q[5, h], q[6, h], q[7, h], q[8, h], q[9, h],
                q[10, h], q[11, h], q[12, h], q[13, h], q[14, h], q[15, h], q[16, h], q[17, h], q[18, h],
                q[19, h], q[20, h], q[21, h], q[22, h], q[23, h], point.eps, point.g)

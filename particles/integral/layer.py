@@ -1,8 +1,8 @@
-"""Fixed points of a layer, compiled: the terms of `dih` over stored edges, in 2D.
+"""Compiled scheme on fixed points of a layer: the terms of `dih` over stored edges, in 2D.
 
-Between plates, which RR98 leaves open, convection and pressure see images without friction, so that the
-divergence stays the adjoint of the gradient: fields of their parents, velocity across reversed, a pressure
-that goes on hydrostatically. Friction and heat see -v and 2 T_w - T. Any other mixture lets sound grow.
+RR98 does not specify plates. Convection and pressure see images that slip: fields of their parents, normal
+velocity reversed, pressure continued hydrostatically; so the divergence stays the adjoint of the gradient.
+Friction and heat see images with -v and 2 T_w - T. Any other combination lets sound grow.
 """
 from dataclasses import dataclass
 from functools import cached_property
@@ -22,15 +22,15 @@ from particles.threads import Threads
 
 
 class LayerSums(FixedSums):
-    """The compiled sums of a layer, with what the time loop asks for."""
+    """The compiled sums of a layer, with the interface of the time loop."""
     method: "Layer"
 
     def __init__(self, method: "Layer", threads: Threads):
         n, beyond, T_plates = len(method.x), method.beyond, np.array(method.T_plates)
         ghosts, ghost = np.unique(np.stack([beyond.parent, beyond.plate]), axis=1, return_inverse=True)
-        # of images; the image of each edge to one
+        # parent and plate of each image; image of each edge that leads to one
         (self.parent, self.plate), self.image = ghosts, ghost.ravel()
-        self.rise = np.zeros(len(self.parent))      # how much higher a parent lies than its image
+        self.rise = np.zeros(len(self.parent))      # height of a parent above its image
         self.rise[self.image] = method.x[beyond.parent, 1] - (method.x[beyond.i, 1] + beyond.apart[:, 1])
         edges = stored(method.edges, beyond, n + self.image)
         images = Ghosts(self.parent, -np.ones(len(self.parent)), T_plates[self.plate])
@@ -42,7 +42,7 @@ class LayerSums(FixedSums):
         _images(self.parent, self.at.images.plate_T, self.rise, self.method.g, self.points, self.n)
 
     def heat_through(self, plate: int) -> float:
-        """Heat per time that enters through plate 0 (lower) or 1; needs fields looked at."""
+        """Heat per time that enters through plate 0 (lower) or 1; for the state of the last `look_at`."""
         beyond, here = self.method.beyond, self.method.beyond.plate == plate
         i, image = beyond.i[here], self.n + self.image[here]
         a, b = self.points[i], self.points[image]
@@ -52,7 +52,7 @@ class LayerSums(FixedSums):
 
 
 class LinearSums(LayerSums):
-    """The same where brackets are products of a point's fields and sums over its neighbours."""
+    """`LayerSums` of fluids whose brackets are products of a point's fields and sums over its neighbours."""
 
     def __init__(self, method: "Layer", threads: Threads):
         super().__init__(method, threads)
@@ -71,7 +71,7 @@ def _images(parent, plate_T, rise, g, points, n):
         b.hydro = a.rho*g*rise[m]
 
 
-#: sums in another form, for fluids that allow it: equation of state, law, and transport
+#: faster forms of the sums, by types of equation of state and transport law, and by transport terms
 FORMS: dict[tuple, type[LayerSums]] = {(IdealGas, ConstEta, MENDED): LinearSums}
 
 
@@ -79,9 +79,9 @@ FORMS: dict[tuple, type[LayerSums]] = {(IdealGas, ConstEta, MENDED): LinearSums}
 class Layer(OnPoints):
     """A fluid on fixed points x (n, 2), periodic in x, between plates at T_plates (lower, upper).
 
-    edges, beyond : of `edges.between_plates`. transport : listed terms of friction and heat: `MENDED`,
-    `PRINTED` as Eq. 51 has it, or of `nested.mixed`. form : which sums, None for those that suit the fluid
-    best, `LayerSums` for those that all fluids have, edge by edge.
+    edges, beyond : of `edges.between_plates`. transport : listed terms of friction and heat, `MENDED`,
+    `PRINTED` (Eq. 51 as printed), or those of `nested.mixed`. form : class of the sums, None for the fastest
+    that the fluid allows, `LayerSums` for the general ones, edge by edge.
     """
     x: np.ndarray
     edges: Edges
@@ -104,8 +104,8 @@ class Layer(OnPoints):
 
 
 class Driving(LayerSums):
-    """The compiled sums of a layer, and what drives it. A sliding plate adds to the friction along an edge to
-    an image: f = eta k makes f (2 U - 2 v) in place of f (-2 v)."""
+    """The compiled sums of a driven layer. A plate that slides at U changes the friction along an edge to an
+    image, with f = eta k, from f (-2 v) to f (2 U - 2 v)."""
     method: "Driven"
 
     def __init__(self, method: "Driven", threads: Threads):
@@ -116,7 +116,7 @@ class Driving(LayerSums):
                                 for q in (U, U**2))
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
-        """What drives it adds f 2 U to momentum, f (2 U - 2 v).U to energy."""
+        """As for a layer, with f 2 U added to momentum, f (2 U - 2 v).U to energy, and the force per mass."""
         super().rates(state, out)
         force = self.method.force
         out[1] += self.pull + force*state[0]
@@ -126,7 +126,7 @@ class Driving(LayerSums):
 @dataclass(frozen=True, kw_only=True)
 class Driven(Layer):
     """A layer whose plates slide at velocities `slide` (lower, upper), under a force per mass along x. For
-    constant viscosity, transport along edges, and flows along the plates: mended heating sees them rest."""
+    constant viscosity, transport along edges, flow along the plates: `MENDED` heats as if plates rested."""
     slide: tuple[float, float] = (0.0, 0.0)
     force: float = 0.0
 
