@@ -76,7 +76,7 @@ def halfway(first, last, dt, y, middle):
 
 @jit
 def mend(eos, y, rings, bench):
-    """Flip edges until all are Delaunay: (point with a full ring or -1, point with a turned triangle or -1)."""
+    """Flip until edges are Delaunay: (point with a full ring, point with a turned triangle), -1 for none."""
     if bench.crossed.any():
         count, full = flips(bench.middle, y, eos, rings, bench.crossed, bench.changed, bench.stack)
         bench.flipped[0] += count

@@ -27,7 +27,7 @@ LEAST = 8.0         # spacings along a periodic axis: in a narrower box a point 
 
 class Rings(NamedTuple):
     """edges : rows of neighbours in order, S/2, k. rim (n,) : whether the ring is a chain. size (2,) : of the
-    box; per (2,) : 1/size along periodic axes, else 0. room (n,) : of each row; end (1,) : of the last row."""
+    box; per (2,) : 1/size along periodic axes, else 0. room (n,) : of each row; end (1,) : of all rows."""
     edges: Stored
     rim: np.ndarray
     size: np.ndarray
