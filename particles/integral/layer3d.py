@@ -1,11 +1,11 @@
 """Fixed points of a layer in two or three dimensions, by sparse matrices: ideal gas, constant coefficients.
 
-The equations of `dih` along edges, heating mended, and the images of `layer`. Every bracket is made of a
-point's own fields and of linear sums over its neighbours, such as sum_j S.(rho_i v_j + rho_j v_i) = rho_i
-sum_j S.v_j + v_i.sum_j S rho_j. An image has its parent's field or the negative of it: the matrices know it.
-Places are (x, z, y) or (x, y), y upwards. The stress is that of the plane gas, eta (grad v + grad v^T - 1
-div v), in 3D with zeta = -eta/3: forces along edges push by eta alone [Eq. 51, A = 0], and what is uniform
-along z moves as in the plane.
+The equations of `dih` with transport along edges and corrected heating, and the images of `layer`. Every
+bracket consists of a point's own fields and linear sums over its neighbours, such as sum_j S.(rho_i v_j +
+rho_j v_i) = rho_i sum_j S.v_j + v_i.sum_j S rho_j. An image has its parent's field or the negative of it,
+which the matrices include. Positions are (x, z, y) or (x, y), y upwards. The stress is that of the plane gas,
+eta (grad v + grad v^T - 1 div v), so that zeta = -eta/3 in 3D: forces along edges depend on eta alone [Eq.
+51, A = 0], and flows uniform along z are those of the plane.
 """
 from collections.abc import Callable
 from typing import Any
@@ -24,7 +24,7 @@ from particles.method import OwnRates
 class Layer3D(OwnRates):
     """A fluid on points x (n, d) of a `RayleighBenard`, periodic along all axes but the last, with `periods`.
 
-    make : makes edges of points and a weight that are their own mirror image, as those of weights are.
+    make : makes edges from points and a weight; edges of mirrored points must be mirrored, as with weights.
     """
 
     def __init__(self, scene: Any, x: np.ndarray, periods: tuple[float, ...],
@@ -43,12 +43,12 @@ class Layer3D(OwnRates):
         beyond = (edges.i < self.n) & (edges.j >= self.n)
         i, parent, upper = edges.i[beyond], edges.j[beyond] - self.n, edges.apart[beyond, -1] > 0
         self.to_plates = [np.bincount(i, edges.k[beyond]*at, self.n) for at in (~upper, upper)]
-        rise = 2*x[parent, -1] - np.where(upper, scene.L, -scene.L)     # how much higher parents are
+        rise = 2*x[parent, -1] - np.where(upper, scene.L, -scene.L)     # height of parents above images
         self.hydro = [sparse.csr_array((q, (i, parent)), shape=(self.n, self.n))
                       for q in scene.g*rise*edges.S[beyond].T/2]
 
     def folded(self, matrix: Any) -> tuple[sparse.csr_array, sparse.csr_array]:
-        """The rows of points where images have their parents' field, and where they have its negative."""
+        """The matrix on points, for fields that images share with their parents, and that they reverse."""
         own, image = matrix[:self.n, :self.n], matrix[:self.n, self.n:]
         return own + image, own - image
 
@@ -80,12 +80,12 @@ class Layer3D(OwnRates):
         out[-2:] -= self.scene.g*state[[0, -2]]
 
     def heat(self, v: np.ndarray, T: np.ndarray) -> np.ndarray:
-        """The work of friction along edges, and conduction, that through plates among it: (n,)."""
+        """Work of friction along edges, and conduction, through plates as well: (n,)."""
         plates = self.scene.T_hot*self.to_plates[0] + self.scene.T_cold*self.to_plates[1]
         return self.eta/2*(self.k_even@(v**2).sum(axis=0)) + self.kappa*(self.k_odd@T + 2*plates)
 
     def mended(self, v: np.ndarray, slope: np.ndarray) -> np.ndarray:
-        """S.F of F_a = eta (v_b d_b v_a - v_a div v), of slope[a, b] = V d_b v_a: (n,)."""
+        """Correction of heating, S.F, F_a = eta (v_b d_b v_a - v_a div v), slope[a, b] = V d_b v_a: (n,)."""
         F = self.eta/self.V*(np.einsum("bn,abn->an", v, slope) - v*traced(slope))
         through = (M@f for M, f in zip((*self.even[:-1], self.odd[-1]), F, strict=True))
         return sum(through) + (self.closure*F).sum(axis=0)
@@ -97,12 +97,12 @@ class Layer3D(OwnRates):
 
 
 def traced(D: Any) -> Any:
-    """Sum of D[a][a]."""
+    """Trace of D, the sum of D[a][a]."""
     return sum(q[a] for a, q in enumerate(D))
 
 
 def check(scene: Any, x: np.ndarray, periods: tuple[float, ...]) -> None:
-    """Refuse another fluid than its sums have, side walls, and points that are not between the plates."""
+    """Check fluid, sides, dimensions, and that points are between the plates. Raises ValueError."""
     if not (isinstance(scene.eos, IdealGas) and constant_viscosity(scene.law)
             and scene.sides.axes == (True, False)):
         raise ValueError(f"a layer in space is IdealGas with ConstEta and Periodic() sides, got {scene.eos}, "

@@ -1,10 +1,10 @@
-"""The sums of `layer` for an ideal gas with constant coefficients, along edges, heating mended.
+"""The sums of `layer` for an ideal gas with constant coefficients, transport along edges, corrected heating.
 
-There P_ij = rho_i T_j: every bracket of Eqs 34-36 and 51 is made of a point's own fields and linear sums over
+There P_ij = rho_i T_j: brackets of Eqs 34-36 and 51 consist of a point's own fields and linear sums over
 its neighbours, such as sum_j S.(rho_i v_j + rho_j v_i) = rho_i sum_j S.v_j + v_i.sum_j S rho_j. Vector
-instructions do several of these at a time. Sums are of differences sum_j S (f_j - f_i), which keep the
-conservation of edges. Equal to `layer` to round-off. Arrays go as plain tuples (a NamedTuple costs a
-microsecond each), rows in blocks whose sums stay in the fastest cache.
+instructions compute several of these at a time. Sums take differences, sum_j S (f_j - f_i), which keep the
+conservation of edges. Results equal `layer` to round-off. Arrays are passed as plain tuples (a NamedTuple
+costs a microsecond each); rows are summed in blocks whose sums stay in the fastest cache.
 """
 from typing import Any, NamedTuple
 
@@ -15,18 +15,18 @@ from continuum.jit import jit, jit_records
 from particles.neighbours import u64
 from particles.pairs import Block, Stored, pair_term, sweep
 
-#: what a neighbour gives, two vectors of four: for S all but w; for k u, v and w = eta u^2/2 + kappa T
+#: fields of a neighbour, two vectors of four: S takes all but w, k takes u, v and w = eta |v|^2/2 + kappa T
 Given = np.dtype([(name, "f8") for name in ("rho", "mx", "my", "eps", "T", "u", "v", "w")])
 Lack = np.dtype([("Fx", "f8"), ("Fy", "f8")])
-ROWS = 32           # of a block
+ROWS = 32           # per block
 
 
 class ProductSums(NamedTuple):
-    """sum S_x, S_y and k times differences of the neighbours' fields; S w, k T fill vectors."""
+    """Sums of S_x, S_y and k times differences of fields; S w and k T only fill up vectors."""
 
 
 class LackSums(NamedTuple):
-    """sum S.F."""
+    """Sum of S.(F_b - F_a)/2, the correction of heating."""
 
 
 @pair_term(ProductSums, 20)
@@ -44,7 +44,7 @@ def _(term, a, b, ab):
 
 
 class IdealSums:
-    """Rates of a layer whose fluid this form fits."""
+    """Rates of a `Layer` with an ideal gas and constant coefficients."""
 
     def __init__(self, layer: Any):
         self.layer, method, edges = layer, layer.method, layer.at.edges
@@ -66,7 +66,7 @@ class IdealSums:
 
 @jit_records
 def _give(first, last, state, parent, twice_T, gas, given):
-    """Fields of points, then of images: rho, T, eps, momentum along of their parents, -v, 2 T_w - T."""
+    """Fields of points, then of images: those of the parent but with -my, -v, and 2 T_w - T in w."""
     n, kappa = u64(state.shape[1]), gas[2]
     for i in range(u64(first), min(u64(last), n)):
         _read(state, i, gas, given[i])
@@ -90,7 +90,7 @@ def _read(state, i, gas, a):
 
 @jit_records
 def _exchange(first, last, given, edges, open, per_V, gas, g, lack, out):
-    """Rates without the mended heating, and F."""
+    """Rates without the correction of heating, and its F."""
     pairs, sums = Stored(*edges), np.empty((ROWS, 20))
     for begin in range(u64(first), u64(last), u64(ROWS)):
         end = min(begin + u64(ROWS), u64(last))
@@ -101,11 +101,11 @@ def _exchange(first, last, given, edges, open, per_V, gas, g, lack, out):
 
 @jit
 def _products(i, a, s, open, f, eta, g, lack, out):
-    """Sums of differences, and what own fields bring where edges do not close; F from slopes."""
+    """Rates from sums of differences, and from own fields where edges do not close; F from slopes."""
     u, v, rho, T, sx, sy = a.u, a.v, a.rho, a.T, open[i, 0], open[i, 1]
     lack.Fx, lack.Fy = eta*f*(v*s[13] - u*s[14]), eta*f*(u*s[6] - v*s[5])
     flow = s[5] + s[14] + sx*u + sy*v                               # S.v
-    Px, Py = rho*(s[4] + T*sx), rho*(s[12] + T*sy)                  # S P_ij of the point's own density
+    Px, Py = rho*(s[4] + T*sx), rho*(s[12] + T*sy)                  # sum S P_ij, of the point's own density
     mass = rho*flow + u*s[0] + v*s[8]
     px = a.mx*flow + u*s[1] + v*s[9] + Px + T*s[0]
     py = a.my*flow + u*s[2] + v*s[10] + Py + T*s[8]
@@ -117,7 +117,7 @@ def _products(i, a, s, open, f, eta, g, lack, out):
 
 @jit
 def _plates(beyond, parent, given, per_V, lack, out):
-    """What convection and pressure see of images, and their F: along a plate even, across it odd."""
+    """Correct images for convection and pressure: slip, hydrostatics; F is even along a plate, odd across."""
     rows, image, sx, sy, weight = beyond
     for k in range(len(rows)):
         i = rows[k]

@@ -1,4 +1,4 @@
-"""Steps of points that move with their triangulation: one compiled loop over what `carried` has."""
+"""Time steps of points that move with their triangulation: one compiled loop over parts of `carried`."""
 import numpy as np
 
 from continuum.jit import jit
@@ -8,26 +8,26 @@ from particles.integral.rings import geometry
 from particles.neighbours import u64
 from particles.threads import shared
 
-#: how a march ends: all steps done; a triangle has turned over; a ring is full
+#: results of `march`: all steps are done; a triangle has turned over; a ring is full
 DONE, TURNED, FULL = 0, 1, 2
 
 
 edges_of = shared(geometry)
-#: four stages of half a step, third order, strong-stability preserving: each takes this share of its result
-#: and the rest of the start; ends of stability on the imaginary and the real axis    [Kraaijevanger 1991]
+#: Runge-Kutta of four Euler stages of half a step, third order, strong-stability preserving: NEW is the share
+#: of the stage, the rest is the start; limits on the imaginary and the real axis    [Kraaijevanger 1991]
 NEW, IMAGINARY, REAL = (1.0, 1.0, 1/3, 1.0), 2.15, 5.14
-#: what forces along edges lack is computed at two stages; of its change from one to the other the later ones
-#: take 1/(2 c_2 (b_2 + b_3 + b_4)): of second order in the step
+#: the correction of forces along edges (`complete`) is computed at the first two stages; later stages use the
+#: first value and 1/(2 c_2 (b_2 + b_3 + b_4)) of the change: second order in the step
 LATER = (1.0, 1.2)
-#: parts in which a step is made at most, where triangles would turn over or edges be too stiff in fewer
+#: largest number of parts of a step, which is divided where triangles would turn over or edges are too stiff
 MOST = 64
 
 
 @jit
 def march(threads, steps, dt, fluid, rings, held, y, bench):
-    """Advance a state (9, n) in place: (how it ended, steps done, a point).
+    """Advance a state (9, n) in place: (result, steps done, the point at fault or -1).
 
-    threads : `Threads` where this is called uncompiled, as `march.py_func`. held : `Held` points.
+    threads : `Threads` if this is called uncompiled, as `march.py_func`. held : `Held` points.
     """
     n, left = y.shape[1], bench.left
     for step in range(steps):
@@ -76,7 +76,7 @@ def halfway(first, last, dt, y, middle):
 
 @jit
 def mend(eos, y, rings, bench):
-    """Flip what is not Delaunay's: (a point without room for a neighbour, one whose triangle has turned)."""
+    """Flip until edges are Delaunay: (point with a full ring, point with a turned triangle), -1 for none."""
     if bench.crossed.any():
         count, full = flips(bench.middle, y, eos, rings, bench.crossed, bench.changed, bench.stack)
         bench.flipped[0] += count
@@ -101,7 +101,7 @@ def keep(first, last, y, before):
 
 @jit
 def fastest(strain, free):
-    """The largest |grad v| of free points."""
+    """Largest |grad v| of free points."""
     largest = 0.0
     for i in range(len(free)):
         largest = max(largest, strain[i]*free[i])
@@ -111,7 +111,7 @@ def fastest(strain, free):
 @shared
 @jit
 def move(first, last, dt, shift, bench, y):
-    """Points go on; free ones then follow the fluid, and shift to the middle of their triangles."""
+    """Move points; free ones then get the velocity of the fluid and a shift to their triangles' centre."""
     for i in range(u64(first), u64(last)):
         for c in range(2):
             y[c, i] += dt*y[c + 2, i]

@@ -1,9 +1,9 @@
 """A conservative scheme on points that move with the fluid and their Delaunay triangulation, in 2D.
 
-Mass, momentum and energy are exchanged over the edges of `rings`, as on fixed points, at the velocity r = w -
-v at which points move against the fluid; flips hand over what they cut off. Volumes are those of the
-triangulation to round-off at all times: nothing has to follow, no static pressure is left out. Held points,
-on sides and bodies, stay where they are or ride with a side that slides along itself. Second order in space.
+Mass, momentum and energy are exchanged over the edges of `rings`, as on fixed points, with the velocity
+r = w - v of points relative to the fluid; flips redistribute them among four points. Volumes equal those of
+the triangulation to round-off: they need no relaxation, and no static pressure is left out. Held points, on
+sides and bodies, stay in place or move with a side that slides along itself. Second order in space.
 """
 from dataclasses import dataclass
 from typing import Any
@@ -23,24 +23,24 @@ from particles.lists import unphysical
 from particles.method import Leaps, Sums
 from particles.threads import Threads
 
-#: times the speed of sound over the spacing, and the diffusivity over its square, on irregular triangles: at
-#: most 1.57 and 17.5 seen; steps during which an edge may be stiffer are made in parts
+#: largest frequency over c/a and largest rate of diffusion over chi/a^2 on irregular triangles: 1.57 and 17.5
+#: were seen; steps in which an edge may be stiffer are divided into parts
 SOUND, SPREAD = 1.6, 18.0
-#: of the shift towards the middle of a point's triangles, over the fastest strain: 1 lets triangles turn over
-#: at Ra 1e7 on 16 rows, from 1.5 on they stay (set after this look)
+#: rate of the shift towards the centre of a point's triangles, over the largest |grad v|: with 1 triangles
+#: turn over at Ra 1e7 on 16 rows, from 1.5 on they do not (set after this look)
 SHIFT = 2.0
-#: steps times points between two looks at the clock and the keyboard: a quarter of a second
+#: steps times points per call, between checks of the clock and the keyboard: a quarter of a second
 AT_ONCE = 1_000_000
-#: room for edges that may have to be flipped after one that was
+#: capacity of the stack of edges that are checked after a flip
 EDGES_AT_ONCE = 4096
-#: points from which a step is worth Python's calls, which threads need
+#: number of points from which a step is long enough for calls from Python, which threads need
 MANY = 20_000
-#: places in memory between neighbours, by the median of some points, from which points are sorted again
+#: distance in memory between neighbours, median of some points, from which points are sorted again
 AFAR, SOME = 32, 10_000
 
 
 class Carry(Leaps):
-    """Half a step of places, triangulation and edges there, the stages of exchange, the other half."""
+    """Integrator: places half a step later, triangulation and edges there, stages of exchange, new places."""
     evaluations = len(NEW)
 
     def __init__(self, shape: tuple[int, ...], threads: Threads):
@@ -48,15 +48,15 @@ class Carry(Leaps):
         self.most = max(1, AT_ONCE//shape[1])
 
     def step(self, sums: "RingSums", state: np.ndarray, dt: float, steps: int = 1) -> None:
-        """Advance a state in place."""
+        """Advance a state in place by so many steps."""
         sums.march(state, dt, steps)
 
 
 class RingSums(Sums):
-    """The compiled sums on a triangulation that moves, with what the time loop asks for.
+    """Compiled sums on a moving triangulation, for the time loop.
 
-    received (m, 3) : momentum and energy of held points, per time, at the state last looked at. ids (n,) :
-    the numbers of points as they come in memory, until they are sorted again.
+    received (m, 3) : momentum and energy that held points take per time, at the state last looked at.
+    ids (n,) : numbers of the points in their present order in memory.
     """
     method: "MovingDelaunay"
 
@@ -77,12 +77,12 @@ class RingSums(Sums):
         self.reorder(np.arange(n))
 
     def go(self, steps: int, dt: float, state: np.ndarray) -> tuple[int, int, int]:
-        """`march`; of many points step by step in Python, so that threads can share its loops."""
+        """Call `march`, with many points uncompiled, so that threads can share the loops in it."""
         on, threads = (march.py_func, self.threads) if self.n >= MANY else (march, None)
         return on(threads, steps, dt, self.fluid, self.rings, self.held, state, self.bench)
 
     def march(self, state: np.ndarray, dt: float, steps: int) -> None:
-        """So many steps. Raises FloatingPointError: a triangle has turned over."""
+        """Advance by so many steps. Raises FloatingPointError: a triangle has turned over."""
         done = 0
         while done < steps:
             how, more, point = self.go(steps - done, dt, state)
@@ -101,7 +101,7 @@ class RingSums(Sums):
         now.anchor = table_of(self.rings)
 
     def resume(self, now: Any) -> None:
-        """Take the triangulation of an interrupted run, and its order of points."""
+        """Restore the triangulation of an interrupted run, and its order of points."""
         if now.anchor is None and not np.array_equal(now.state[:2].T, self.method.x):
             raise ValueError("the state is not where the triangulation of the method is: start from the "
                              "method's own `state`, or make a method on these points")
@@ -110,7 +110,7 @@ class RingSums(Sums):
             self.reorder(now.ids)
 
     def reorder(self, order: np.ndarray) -> None:
-        """Number held points and sides as points `order` come."""
+        """Renumber held points and sides for points in this order."""
         self.ids, place = order, np.argsort(order)
         self.held = self.method.held._replace(which=place[self.method.held.which])
         self.rings = self.rings._replace(rim=self.method.rings.rim[order])
@@ -118,7 +118,7 @@ class RingSums(Sums):
         self.bench.free[self.held.which] = False
 
     def make_ready(self, now: Any, dt: float) -> None:
-        """Sort points in memory once neighbours are far apart there, which costs half as much again."""
+        """Sort points in memory once neighbours are far apart there, which makes steps 1.5 times as slow."""
         some = np.arange(0, self.n, 1 + self.n//SOME)
         if np.median(np.abs(self.rings.edges.near[self.rings.edges.first[some]].astype(int) - some)) > AFAR:
             order = in_order(now.state[:2], self.rings.size)
@@ -127,12 +127,12 @@ class RingSums(Sums):
             self.reorder(now.ids)
 
     def try_out(self, now: Any) -> None:
-        """No step: loads the code."""
+        """Load or compile the code, without a step."""
         self.go(0, 1.0, now.state)
         self.look_at(now.state)
 
     def look_at(self, state: np.ndarray) -> None:
-        """What held points receive now, on the triangulation where points are."""
+        """Compute what held points receive, with edges at the current places."""
         bench = self.bench
         geometry(0, self.n, state[:2], self.rings, bench.V, bench.pull, bench.spread, bench.crossed)
         receive(self.fluid, self.rings, self.held, state, bench, self.received)
@@ -144,11 +144,11 @@ class RingSums(Sums):
 
 @dataclass(frozen=True, kw_only=True)
 class MovingDelaunay:
-    """A fluid on points x (n, 2) and their triangulation, of `rings`.
+    """A fluid on points x (n, 2) that move with their triangulation, of `rings`.
 
-    held : points on all sides and in bodies. rides : do they go along at their velocities? g : gravity,
-    downwards. shift : of points towards the middle of their triangles, over the fastest strain. transport :
-    listed terms, besides the heating's.
+    held : points on all sides and in bodies. rides : whether these move at their velocities. g : gravity,
+    downwards. shift : see SHIFT. transport : listed terms; the correction of friction, `carried.complete`,
+    is always added.
     Raises ValueError: a point on a side is not held.
     """
     x: np.ndarray
@@ -174,7 +174,7 @@ class MovingDelaunay:
         """(9, n) of densities (n,), velocities (n, 2), temperatures (n,); held points get their own."""
         n, which = len(self.x), self.held.which
         V, v, T = np.zeros(n), np.array(v, float), T*np.ones(n)
-        rings = remade(self.rings)       # edges that are written take memory
+        rings = remade(self.rings)       # a copy: edges that are written take memory
         geometry(0, n, self.x.T.copy(), rings, V, np.zeros((n, 2)), np.zeros(n), np.zeros(n, bool))
         w = v.copy()
         v[which], w[which] = self.held.v, self.rides*self.held.v
@@ -184,7 +184,7 @@ class MovingDelaunay:
         return state
 
     def fields(self, state: np.ndarray) -> Fields:
-        """Of the points, (n,) each, at their places in the box."""
+        """Fields of the points, (n,) each, with places wrapped into the box."""
         px, py, m, V, E = state[EXCHANGED]
         x = state[:2].T - self.rings.size*np.rint(state[:2].T*self.rings.per)
         return from_densities(self.eos, x, V.copy(), m/V, np.stack([px, py])/V, E/V)
@@ -197,7 +197,7 @@ class MovingDelaunay:
 
 @limit_of.register
 def _(method: MovingDelaunay, start: np.ndarray) -> float:
-    """Of the fastest wave and of diffusion on stiff edges; a stream that carries all does not count."""
+    """Longest stable step: sound and diffusion on stiff edges; points move along, so flow does not count."""
     px, py, m, V, E = start[EXCHANGED]
     rho, e = m/V, E/m - (px**2 + py**2)/(2*m**2)
     check_state(method.eos, rho, e)

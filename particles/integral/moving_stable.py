@@ -1,7 +1,7 @@
 """Points that move with their triangulation and an entropy-stable flux: `entropy_fluxes`, `positive` steps.
 
-What passes an edge that moves at {w} passes it at r = w - v, and so the terms keep the sum of V rho s as
-they do on points that stay. Steps are made in parts, as short as it takes, in Python over compiled loops.
+Fluxes over an edge that moves at {w} take the relative velocity r = w - v; so the terms keep the sum of
+V rho s as on fixed points. Steps are divided into parts that are short enough, in Python over compiled loops.
 """
 from dataclasses import dataclass
 from math import ceil
@@ -23,13 +23,13 @@ from particles.integral.stable_rings import _along, _at_sides, _gained, _sound, 
 from particles.pairs import Faces, sweep
 from particles.threads import Threads
 
-#: of a state: mass, momentum, energy, in the order of densities
+#: rows of a state: mass, momentum and energy, in the order of `dih.densities`
 DENSITIES = [6, 4, 5, 8]
 
 
 class StableRings(Limits, RingSums):
-    """The compiled sums, stepped in Python. slowed : of parts that were halved, those where a triangle would
-    have turned over, whose points then go on together."""
+    """Compiled sums, stepped in Python. slowed : number of halved parts in which a triangle would have turned
+    over; the points around it then get one velocity."""
     method: "StableDelaunay"
 
     def __init__(self, method: "StableDelaunay", threads: Threads):
@@ -46,39 +46,39 @@ class StableRings(Limits, RingSums):
         self.widen()
 
     def widen(self) -> None:
-        """Give edges room for what leads along them."""
+        """Give the edges arrays for their separations dx, dy."""
         edges = self.rings.edges
         self.edges = Faces(*edges[:6], *np.zeros((2, len(edges.near))))
         self.rings = self.rings._replace(edges=self.edges)  # type: ignore[arg-type]
 
     def try_out(self, now: Any) -> None:
-        """No step: loads the code."""
+        """Load or compile the code, without a step."""
         self.look_at(now.state)
 
     def look_at(self, state: np.ndarray) -> None:
-        """What held points receive now, on the triangulation where points are."""
+        """Compute what held points receive, with edges at the current places."""
         self.meet(state[:2])
         self.lead(state[:2])
         self.look(state)
         receive(self.fluid, self.rings, self.held, state, self.bench, self.received)
 
     def meet(self, x: np.ndarray) -> None:
-        """Edges of points (2, n)."""
+        """Compute edges and volumes at places x (2, n)."""
         bench = self.bench
         march.edges_of(self.threads, self.n, x, self.rings, bench.V, bench.pull, bench.spread, bench.crossed)
 
     def lead(self, x: np.ndarray) -> None:
-        """What leads along edges that are met; their volumes, whose place others take."""
+        """Compute separations along the edges; copy the volumes, whose memory is reused."""
         self.threads(_along, self.n, x, self.rings)
         self.V = self.bench.V.copy()
 
     def fields(self, y: np.ndarray) -> None:
-        """Of points."""
+        """Compute the fields of points."""
         read(self.threads, self.n, y, self.method.eos, self.method.law, self.points)
         self.threads(_sound, self.n, self.method.eos, y, self.points)
 
     def look(self, y: np.ndarray) -> None:
-        """Fields of points and their slopes."""
+        """Compute the fields of points and their gradients."""
         self.fields(y)
         n, points, rings = self.n, self.points, self.rings
         self.threads(sweep, n, Slopes(), points, self.edges, self.slopes)
@@ -87,13 +87,13 @@ class StableRings(Limits, RingSums):
         self.threads(divided, n, self.slopes, self.V, points)
 
     def longest(self, y: np.ndarray) -> float:
-        """The step that is known to keep a state positive that was looked at; nan on no triangulation."""
+        """Longest step proven to keep the state last looked at positive; nan if triangles are turned over."""
         sound = (self.speeds - self.bench.flow/2)/y[7]
         return float(1/PART/np.max(sound/COURANT + self.bench.spread*self.chi))
 
     def march(self, state: np.ndarray, dt: float, steps: int) -> None:
-        """So many steps. Raises FloatingPointError: no part of one leaves triangles, densities and energies
-        positive."""
+        """Advance by so many steps. Raises FloatingPointError: in the shortest part of a step a triangle,
+        a density or an energy does not stay positive."""
         for _ in range(steps):
             left, most = dt, self.guess(state, dt)
             while left > 0:
@@ -110,7 +110,7 @@ class StableRings(Limits, RingSums):
         self.bench.flipped[0] = 0
 
     def guess(self, y: np.ndarray, dt: float) -> float:
-        """The longest step from here, on edges of points as they are; the whole one if none is known."""
+        """First guess of the longest step, from edges at the current places; dt if these give none."""
         self.meet(y[:2])
         self.fields(y)
         follow(self.threads, self.n, self.fluid, self.rings, self.bench)
@@ -118,7 +118,7 @@ class StableRings(Limits, RingSums):
         return longest if longest > 0 else dt
 
     def part(self, y: np.ndarray, h: float) -> tuple[bool, float]:
-        """Go on by h: (done, how long the next one may be)."""
+        """Advance by h: (whether it is done, longest next part)."""
         self.lost, self.turned = self.n, self.flip(y, h)
         if self.turned >= 0 or not self.sound(y):
             return False, h/2
@@ -143,7 +143,7 @@ class StableRings(Limits, RingSums):
         return True, longest
 
     def flip(self, y: np.ndarray, h: float) -> int:
-        """Edges halfway through a step, Delaunay's; a point whose triangle turns over by its end, or -1."""
+        """Make edges Delaunay halfway through a step; a point whose triangle turns over by its end, or -1."""
         bench, full, turned = self.bench, 0, -1
         march.halfway(self.threads, self.n, h, y, bench.middle)
         while full >= 0:
@@ -164,7 +164,7 @@ class StableRings(Limits, RingSums):
         return bool(self.lost == self.n)
 
     def euler(self, y: np.ndarray, h: float) -> bool:
-        """One step of what is exchanged, places apart; False: not even Rusanov's flux leaves rho, e > 0."""
+        """Euler step without moving points. False: not even Rusanov's flux keeps rho, e > 0."""
         total, (before, after) = self.sending.sum(self.points, self.whole), self.densities
         self.threads(_gained, self.n, h, self.method.g, total, self.bench, y, before, after)
         self.lost = self.n if (y[7] > 0).all() else int(y[7].argmin())
@@ -175,7 +175,7 @@ class StableRings(Limits, RingSums):
         return True
 
     def go_back(self, state: np.ndarray, before: np.ndarray, rings: Any, parts: list[np.ndarray]) -> None:
-        """To where a part of a step began; points of a triangle that would turn over then go on together."""
+        """Restore the start of a part; free points around a triangle that would turn get one velocity."""
         state[:], self.rings, self.edges = before, rings, rings.edges
         for array, old in zip(changing(rings), parts):
             array[:] = old
@@ -188,7 +188,7 @@ class StableRings(Limits, RingSums):
             self.slowed += 1
 
     def end(self, state: np.ndarray, h: float) -> str:
-        """Why it cannot go on, with the point, its state and its edges."""
+        """Message why the run cannot go on, with the point, its state and its edges."""
         i = self.turned if self.turned >= 0 else self.lost
         (x, y), V = state[:2, i], state[7, i]
         return (f"no step of {h:.3g} or more leaves the point at ({x:.4g}, {y:.4g}) triangles, density and "
@@ -197,14 +197,14 @@ class StableRings(Limits, RingSums):
 
 
 def changing(rings: Any) -> tuple[np.ndarray, ...]:
-    """What flips write."""
+    """Arrays that flips change."""
     return rings.edges.first, rings.edges.taken, rings.edges.near, rings.room, rings.end
 
 
 @dataclass(frozen=True, kw_only=True)
 class StableDelaunay(MovingDelaunay):
-    """A fluid with an entropy on such points. flow : listed terms in place of what crosses edges; the mean
-    pressure, as it is nearest to `carried.Crossing`."""
+    """A fluid with an entropy on points that move with their triangulation. flow : listed terms in place of
+    `carried.Crossing`; by default an ideal gas has `MeanPressure`, which is nearest to that."""
     flow: tuple = ()
 
     def __post_init__(self):

@@ -1,4 +1,4 @@
-"""Stress and heat current of points from gradients, and their divergence: a term over edges, in 2D."""
+"""Nested transport, in 2D: stress and heat current of points from gradients, their divergence over edges."""
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -11,21 +11,21 @@ from particles.integral.transposed_stress import Mending
 from particles.pairs import pair_term, sweep
 from particles.threads import Threads
 
-#: stress, -Q, and the velocity that friction sees
+#: stress, minus the heat current Q, and the velocity that friction sees
 Current = np.dtype([(name, "f8") for name in ("xx", "xy", "yx", "yy", "qx", "qy", "ux", "uy")])
 
 
 class NestedTransport(NamedTuple):
-    """Of a share of viscosity and conductivity; its sums are over other records than those of points."""
+    """A share of viscosity and conductivity, nested. Its sums, by `Nesting`, read records of their own."""
     share: float
 
 
 class Slopes(NamedTuple):
-    """V grad of v and T by differences: d_x u, d_y u, d_x v, d_y v, d_x T, d_y T."""
+    """V times gradients of v and T, by differences: d_x u, d_y u, d_x v, d_y v, d_x T, d_y T."""
 
 
 class Currents(NamedTuple):
-    """Stress and heat current of the points, over edges: momentum and energy    [Eqs 37, 38]"""
+    """Exchange of momentum and energy by stress and heat current of the points    [Eqs 37, 38]"""
 
 
 @pair_term(NestedTransport, 4)
@@ -47,22 +47,22 @@ def _(term, a, b, ab):
 
 
 def mixed(share: float, mended: bool = True) -> tuple:
-    """A share of transport along edges [Eq. 51], mended or not, the rest nested [Eqs 37, 38]."""
+    """Terms for a share of transport along edges [Eq. 51], with `Mending` if mended, the rest nested."""
     check_share(share)
     along = (Conduction(share), *(Mending(share),)*mended, Friction(share))*(share > 0)
     return (*along, *(NestedTransport(1 - share),)*(share < 1))
 
 
 class Nesting(Stage):
-    """Makes the currents of points and images, and adds their divergence."""
+    """Computes stress and heat current of points and images, and adds their divergence."""
 
     def __init__(self, share: float, law: Any, n: int, threads: Threads):
         self.share, self.law, self.n, self.threads = share, law, n, threads
         self.slopes, self.gain, self.currents = np.empty((n, 6)), np.empty((n, 3)), np.zeros(0, Current)
 
     def prepare(self, at: At) -> None:
-        """Images have the adjoint of gradients that see -v, 2 T_w - T: odd along the plate, even across. Of a
-        shear stress that is another number for each of its two directions."""
+        """Images have the adjoint of gradients that see -v, 2 T_w - T: currents along the plate (xx, xy, qx)
+        are odd, those across it (yx, yy, qy) even. So xy and yx of an image differ."""
         if len(self.currents) != len(at.points):
             self.currents = np.zeros(len(at.points), Current)
         self.threads(sweep, self.n, Slopes(), at.points, at.edges, self.slopes)
@@ -91,7 +91,7 @@ def _(term: NestedTransport, law: Any, n: int, threads: Threads) -> tuple[Stage,
 
 @jit
 def _currents(first, last, slopes, V, law, share, points, currents):
-    """Stress and -Q of the nested share."""
+    """Stress and -Q of points, for the nested share."""
     for i in range(first, last):
         a, b = points[i], currents[i]
         ux, uy, vx, vy, Tx, Ty = slopes[i]

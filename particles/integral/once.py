@@ -1,8 +1,8 @@
-"""Exchange over edges that are evaluated once each, many at a time: what one end gains the other loses.
+"""Exchange over edges, each evaluated once, many at a time: what one end gains the other loses.
 
-For terms without a branch, so that a loop over edges becomes vector instructions; dissipation, which has one,
-follows at the few edges that a first look finds astir. Blocks of edges are the same however many threads
-there are, and points add up what their edges bring in the order of their rows: so are results.
+For terms without a branch, so that the loop over edges becomes vector instructions. Dissipation has a branch:
+it is added afterwards, on the few edges that `astir` finds. Results do not depend on the number of threads,
+as blocks of edges do not, and points add up the exchange of their edges in the order of their rows.
 """
 from typing import NamedTuple
 
@@ -17,15 +17,16 @@ from particles.neighbours import u32, u64
 from particles.pairs import Face, Faces, rate, sweep
 from particles.threads import Threads
 
-FEW = 2         # of the edges of a block: what is dissipated by more is computed of all
-#: terms of transport that give one end what they take from the other
+FEW = 2         # edges of a block that dissipate: if more do, dissipation is computed for the whole block
+#: antisymmetric terms of transport: one end gains what the other loses
 ALIKE = Friction, Conduction, Mending
 Sent = np.dtype([(name, "f8") for name in ("m", "px", "py", "e")])
 
 
 class Once(NamedTuple):
-    """Edges from points i to `near`, as `Faces` have them at their row of i; and of each entry of rows which
-    edge it is, and whether it is its beginning (1) or its end (-1). Behind the last edge some have no area.
+    """Edges from points i to `near`, each once, as in row i of `Faces`; edges behind the last have no area.
+
+    edge, sign : of each entry of the rows its edge, and 1 at that edge's point i, -1 at its point `near`.
     """
     i: np.ndarray
     near: np.ndarray
@@ -52,7 +53,7 @@ def count(edges, stirred):
 
 
 def empty_once(entries: int) -> Once:
-    """Room for edges of rows that have so many entries."""
+    """Memory for the edges of rows with so many entries in all."""
     size = -(-entries//int(BLOCK))*int(BLOCK)
     (i, near), (sx, sy, k, dx, dy) = np.zeros((2, size), u32), np.zeros((5, size))
     return Once(i, near, sx, sy, k, dx, dy, np.zeros(entries, u32), np.zeros(entries))
@@ -60,7 +61,7 @@ def empty_once(entries: int) -> Once:
 
 @jit
 def fill_once(n, edges, once):
-    """Find the edges of n rows: their number. An edge whose way back is in no row is one of its own."""
+    """Store the edges of n rows, return their number. An entry without `way_back` is an edge by itself."""
     count = u64(0)
     for i in range(u64(n)):
         for e in range(edges.first[i], edges.first[i] + edges.taken[i]):
@@ -79,8 +80,8 @@ def fill_once(n, edges, once):
 
 @jit
 def way_back(i, e, edges):
-    """The entry of the same edge in its other end's row, which in a narrow box has more of them to i; e for
-    none."""
+    """Entry of the same edge in the row of its other end, or e if there is none. In a narrow box several
+    entries of that row lead to i: the one of opposite area is meant."""
     j, sx, sy = edges.near[e], edges.sx[e], edges.sy[e]
     found, least = u64(e), 1e-6*(abs(sx) + abs(sy)) + 1e-300
     for back in range(edges.first[j], edges.first[j] + edges.taken[j]):
@@ -93,8 +94,8 @@ def way_back(i, e, edges):
 
 @jit_apart
 def _carry(first, last, terms, own, points, a, b, once, stirred, sent):
-    """What terms bring along edges, less the pressure of one end and of the other in equal parts; which edges
-    are astir. a, b : lanes of their ends."""
+    """Exchange by terms over edges, without the pressures of both ends, which `_receive` adds; marks edges
+    that dissipate. a, b : lanes of both ends."""
     for h in range(first, last):
         ab, q = edge_at(once, h), sent[h]
         one, other = end_at(a, h - first, points[once.i[h]]), end_at(b, h - first, points[once.near[h]])
@@ -106,7 +107,7 @@ def _carry(first, last, terms, own, points, a, b, once, stirred, sent):
 
 @jit_apart
 def _stir_all(first, last, term, points, a, b, once, stirred, sent):
-    """Add what edges astir dissipate; a branch would end the vector instructions."""
+    """Add the dissipation of marked edges, computed for all: a branch would end vector instructions."""
     for h in range(first, last):
         ab, q, here = edge_at(once, h), sent[h], 1.0*stirred[h]
         one, other = end_at(a, h - first, points[once.i[h]]), end_at(b, h - first, points[once.near[h]])
@@ -116,7 +117,7 @@ def _stir_all(first, last, term, points, a, b, once, stirred, sent):
 
 @jit
 def _stir_few(first, last, term, points, once, stirred, sent):
-    """The same, one by one."""
+    """Add the dissipation of marked edges, one by one."""
     for h in range(first, last):
         if stirred[h]:
             q = sent[h]
@@ -126,7 +127,7 @@ def _stir_few(first, last, term, points, once, stirred, sent):
 
 @jit
 def _send(first, last, terms, rough, own, points, lines, once, stirred, sent):
-    """What edges bring. rough : what those astir dissipate by, if anything; lines : points as numbers."""
+    """Exchange over blocks of edges. rough : `Dissipation`, or None; lines : points as rows of numbers."""
     a, b = np.empty((COLUMNS, BLOCK)), np.empty((COLUMNS, BLOCK))
     for block in range(u64(first), u64(last)):
         begin, end = block*BLOCK, (block + u64(1))*BLOCK
@@ -143,7 +144,7 @@ def _send(first, last, terms, rough, own, points, lines, once, stirred, sent):
 
 @jit_records
 def _receive(first, last, own, slopes, edges, once, sent, total):
-    """Add to points what their edges bring, and what their own pressure leaves of others'."""
+    """Add to each point the exchange over its edges, and the pressures that `_carry` leaves out."""
     for i in range(u64(first), u64(last)):
         m, px, py, e = total[i, 0], total[i, 1], total[i, 2], total[i, 3]
         for k in range(edges.first[i], edges.first[i] + edges.taken[i]):
@@ -154,13 +155,13 @@ def _receive(first, last, own, slopes, edges, once, sent, total):
 
 
 class Sending:
-    """Listed terms, each edge once; those of transport that are not `ALIKE` row by row."""
+    """Sums of listed terms, each edge evaluated once; transport terms not in `ALIKE` are summed by rows."""
 
     def __init__(self, flow: tuple, transport: tuple, n: int, threads: Threads):
         self.n, self.threads, self.total = n, threads, np.zeros((n, 4))
         self.rough = next((term for term in flow if isinstance(term, Dissipation)), None)
         carried = tuple(term for term in flow if not isinstance(term, Dissipation))
-        # a pressure leaves out a row's own
+        # pressure terms leave out the pressure of the row's own point
         self.own = float(any(not isinstance(term, Logarithmic) for term in carried))
         alike = tuple(term for term in transport if isinstance(term, ALIKE))
         self.terms = Listing((*carried, *alike) or (Friction(0.0),))
@@ -168,7 +169,7 @@ class Sending:
         self.once, self.sent = empty_once(0), np.zeros(0, Sent)
 
     def follow(self, edges: Faces) -> None:
-        """Take these edges."""
+        """Use these edges from now on."""
         if len(edges.near) != len(self.once.edge):
             self.once = empty_once(len(edges.near))
             self.stirred, self.sent = np.zeros(len(self.once.i), bool), np.zeros(len(self.once.i), Sent)
@@ -176,7 +177,7 @@ class Sending:
         self.blocks = -(-int(count)//int(BLOCK))
 
     def sum(self, points: np.ndarray, slopes: np.ndarray) -> np.ndarray:
-        """What points gain (n, 4), which the next sum overwrites. slopes : of `positive.Slopes`."""
+        """Gains of the points, (n, 4), overwritten by the next call. slopes : sums of `positive.Slopes`."""
         threads, once, sent, total = self.threads, self.once, self.sent, self.total
         if self.others:
             threads(sweep, self.n, Listing(self.others), points, self.edges, total)

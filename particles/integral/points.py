@@ -1,4 +1,4 @@
-"""Point sets in a box: lattice, jittered, random, relaxed; their regularity; near pairs."""
+"""Point sets in a box: lattice, jittered, random, relaxed; pairs of near points."""
 from dataclasses import dataclass
 from typing import Any
 
@@ -43,7 +43,7 @@ class Points:
         return float((np.prod(self.box)/self.n)**(1/self.d))
 
     def separation(self, i: np.ndarray, j: np.ndarray) -> np.ndarray:
-        """x_j - x_i by the nearest image, (pairs, d)."""
+        """x_j - x_i, to the nearest image of j, (pairs, d)."""
         d = self.x[j] - self.x[i]
         return d - self.box*np.round(d/self.box)
 
@@ -58,7 +58,7 @@ def of_positions(x: np.ndarray, box: Any) -> Points:
 
 
 def lattice(counts: tuple[int, ...], a: float = 1.0) -> Points:
-    """Square lattice with so many points along each axis, spacing a."""
+    """Square lattice of spacing a, with `counts` points along the axes."""
     if not all(count == int(count) for count in counts):
         raise ValueError(f"a lattice has whole numbers of points along its axes, got {counts}")
     axes = [(np.arange(c) + 0.5 - c/2)*a for c in counts]
@@ -74,7 +74,7 @@ def jittered(counts: tuple[int, ...], size: float, seed: int, a: float = 1.0) ->
 
 
 def random(counts: tuple[int, ...], apart: float, seed: int) -> Points:
-    """Points at random, about one a unit, none nearer than `apart`. ValueError: the last find no place."""
+    """Random points, one per unit volume, none nearer than `apart`. ValueError: some find no place."""
     at = lattice(counts)
     rng, x = np.random.default_rng(seed), np.empty((0, at.d))
     for _ in range(400):
@@ -87,7 +87,7 @@ def random(counts: tuple[int, ...], apart: float, seed: int) -> Points:
 
 
 def _thinned(x: np.ndarray, box: np.ndarray, apart: float) -> np.ndarray:
-    """Points of which none is too near to an earlier one that stays."""
+    """Points without those nearer than `apart` to an earlier one that stays."""
     if not apart > 0:
         return x
     stays = np.ones(len(x), bool)
@@ -99,12 +99,12 @@ def _thinned(x: np.ndarray, box: np.ndarray, apart: float) -> np.ndarray:
 
 
 def wrapped(x: np.ndarray, box: np.ndarray) -> np.ndarray:
-    """Positions by their images in the box."""
+    """Positions wrapped into the box."""
     return x - box*np.round(x/box)
 
 
 def pairs(points: Points, distance: float) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """(i, j, x_j - x_i, r) of pairs i < j nearer than `distance`. ValueError: half of the box, or r = 0."""
+    """(i, j, x_j - x_i, r) of pairs i < j nearer than `distance`. ValueError: half the box or more; r = 0."""
     if 2*distance >= points.box.min():
         raise ValueError(f"the reach {distance:g} is wider than half of the box {points.box}: take more "
                          "points or a narrower weight")
@@ -121,8 +121,8 @@ def pairs(points: Points, distance: float) -> tuple[np.ndarray, np.ndarray, np.n
 
 
 def relaxed(points: Points, weight: Any, until: float = 2e-3, sweeps: int = 2000) -> Points:
-    """Points moved by 0.12 a^2 c a sweep until a |c| < `until` everywhere, c_i = sum_j W(r_ij) dV e_ij, which
-    is zero on a lattice. Raises ArithmeticError: they are not that regular after so many sweeps."""
+    """Points moved by 0.12 a^2 c per sweep until a |c| < `until` everywhere; c_i = sum_j W(r_ij) dV e_ij is
+    zero on a lattice. Raises ArithmeticError: a |c| is still larger after so many sweeps."""
     check(weight, points.d)
     for _ in range(sweeps):
         i, j, apart, r = pairs(points, reach(weight))

@@ -1,8 +1,8 @@
-"""Euler steps over edges that leave rho, e > 0, whatever is listed in place of convection and pressure.
+"""Euler steps over edges that keep rho, e > 0, whatever is listed in place of convection and pressure.
 
-One by Rusanov's flux leaves them so if it is short enough [Perthame & Shu 1996], also on edges that move.
-Where one by listed terms does not, edges leave out what takes more than a share of either point's, beyond
-Rusanov's. Points are those of `lanes`.
+A short enough step with Rusanov's flux keeps both positive [Perthame & Shu 1996], also on moving edges. Where
+a step with listed terms does not, edges leave out a part of their exchange beyond Rusanov's flux, so that no
+edge takes more than its share from either point. Points are records of `lanes`.
 """
 from typing import Any, NamedTuple
 
@@ -19,28 +19,28 @@ from particles.lists import Ghosts
 from particles.pairs import Faces, pair_term, rate, sweep
 from particles.threads import Threads
 
-COURANT, KEPT = 0.9, 0.1        # part of the proven step; of a low-order density or energy that is kept
-LEAST = 1e-6                    # part of a step that halving goes down to
-#: Euler steps of a part of a step each, and the share of the start in what each leaves: third order, and what
-#: they keep one by one they keep together    [Kraaijevanger 1991]
+COURANT, KEPT = 0.9, 0.1        # part of the step proven positive; of low-order density and energy that stays
+LEAST = 1e-6                    # part of a step below which it is not halved again
+#: Runge-Kutta: a stage is an Euler step of PART of the step, averaged with the start, whose share is OLD;
+#: third order, strong-stability preserving: it keeps what each Euler step keeps    [Kraaijevanger 1991]
 PART, OLD = 0.5, (0.0, 0.0, 2/3, 0.0)
 
 
 class Slopes(NamedTuple):
-    """V grad of rho, v and P by differences."""
+    """V times the gradients of rho, v and P, by differences."""
 
 
 class Sound(NamedTuple):
-    """|S|/2 (|(v - {w}).n| + c)"""
+    """Speed of the fastest wave times area, |S|/2 (|(v - {w}).n| + c)."""
 
 
 class Excess(NamedTuple):
-    """What listed terms exchange beyond Rusanov's flux."""
+    """Exchange by listed terms minus Rusanov's flux."""
     terms: Listing
 
 
 class Limited(NamedTuple):
-    """What an edge leaves out of it    [Zalesak 1979; Guermond & Popov 2017]"""
+    """Minus the part of `excess` that an edge leaves out    [Zalesak 1979; Guermond & Popov 2017]"""
     excess: Excess
 
 
@@ -67,10 +67,10 @@ def _(term, a, b, ab):
 
 @formula
 def share(a, rho, px, py, eps):
-    """The largest part <= 1 of a change that leaves KEPT of a point's low-order density and energy."""
+    """Largest part <= 1 of a change that leaves KEPT of a point's low-order density and internal energy."""
     part = min(1.0, (1 - KEPT)*a.low_rho/max(-rho, 1e-300))
     heat = a.low_eps - (a.low_px*a.low_px + a.low_py*a.low_py)/(2*a.low_rho)
-    # rho (eps - KEPT heat) - p^2/2 is a quadratic of the part, positive at 0
+    # rho (eps - KEPT heat) - p^2/2 is a quadratic in the part, positive at 0
     two, zero = rho*eps - 0.5*(px*px + py*py), (1 - KEPT)*a.low_rho*heat
     one = a.low_rho*eps + rho*(a.low_eps - KEPT*heat) - a.low_px*px - a.low_py*py
     inside = one*one - 4*two*zero
@@ -87,7 +87,7 @@ def _(term, a, b, ab):
 
 
 class Switched(NamedTuple):
-    """Does an edge dissipate?"""
+    """Counts edges that dissipate."""
     term: Dissipation
 
 
@@ -98,7 +98,7 @@ def _(term, a, b, ab):
 
 
 def switched(sums: Any, state: np.ndarray) -> float:
-    """The share of edges that dissipate, of points looked at: a quantity of a run."""
+    """Share of edges that dissipate, at the state last looked at: a quantity of a run."""
     term = next((one for one in sums.method.flow if isinstance(one, Dissipation)), None)
     if term is None:
         return 0.0
@@ -108,8 +108,8 @@ def switched(sums: Any, state: np.ndarray) -> float:
 
 
 class Limits:
-    """Euler steps of points (n,) over edges that leave rho, e > 0. limited : number of those with limits;
-    refused : of parts of steps that were halved, the last one by point `lost`."""
+    """Euler steps of n points over edges that keep rho, e > 0. limited : number of Euler steps with limits;
+    refused : number of parts of steps that were halved, the last time because of point `lost`."""
     n: int
     method: Any
     threads: Threads
@@ -118,7 +118,7 @@ class Limits:
     images: Ghosts
 
     def set_limits(self, flow: tuple) -> None:
-        """Room, for the listed terms that limits are for."""
+        """Prepare counters, sums and arrays for the listed terms."""
         self.refused, self.limited, self.lost = 0, 0, self.n
         self.excess, self.gain = Excess(Listing(flow)), np.zeros((self.n, 4))
         self.leaves_out = limited(self.method.eos, self.excess)
@@ -127,19 +127,19 @@ class Limits:
 
     @property
     def speeds(self) -> np.ndarray:
-        """Of points looked at, over all of their edges."""
+        """Sum of `Sound` over the edges of each point, (n,), of the state last looked at."""
         self.threads(sweep, self.n, Sound(), self.points, self.edges, self.fastest)
         return self.fastest[:, 0]
 
     @property
     def chi(self) -> np.ndarray:
-        """Diffusivity of points."""
+        """Diffusivity of each point, (n,): the larger one of momentum and heat."""
         points = self.points[:self.n]
         return np.maximum(points["eta"], points["k"]/self.method.eos.cv)/points["rho"]
 
     def less(self, before: np.ndarray, after: np.ndarray, per_V: np.ndarray) -> Any:
-        """What a step, per volume (n,), from densities (4, n) to those after may not take, to be added again;
-        None if not even Rusanov's flux leaves rho, e > 0."""
+        """Correction (4, n) by limits, to be added to densities `after` an Euler step; 0 if none is needed,
+        None if not even Rusanov's flux keeps rho, e > 0. before, after (4, n); per_V (n,) : step/volume."""
         n, points, edges, eos = self.n, self.points, self.edges, self.method.eos
         if not (crowded(eos, before, after)
                 or sum(self.threads(fallen, n, above_cold(eos, before), above_cold(eos, after)))):
@@ -159,12 +159,12 @@ class Limits:
         return per_V*self.gain.T
 
     def settle(self) -> None:
-        """Changes what was summed up for points that are held; there are none."""
+        """Correct the sums `gain` at held points; here there are none."""
 
 
 @jit
 def divided(first, last, slopes, V, points):
-    """Slopes from what differences sum up to."""
+    """Gradients of points, from sums of `Slopes`."""
     for i in range(first, last):
         a, q, f = points[i], slopes[i], 1/V[i]
         a.rho_x, a.u_x, a.v_x, a.P_x = f*q[0], f*q[1], f*q[2], f*q[3]
@@ -173,7 +173,7 @@ def divided(first, last, slopes, V, points):
 
 @jit
 def fallen(first, last, before, after):
-    """Number of points whose density or internal energy fell below a share of what it was."""
+    """Number of points whose density or internal energy fell below KEPT of what it was."""
     count = 0
     for i in range(first, last):
         rho, e = inner(before[0, i], before[1, i], before[2, i], before[3, i])
@@ -184,17 +184,17 @@ def fallen(first, last, before, after):
 
 @generic
 def above_cold(eos, state):
-    """Densities (4, n), the energy without what the fluid has at T = 0, which may not fall to 0 either."""
+    """Densities (4, n) with the energy counted from T = 0, which must stay positive, too."""
 
 
 @generic
 def crowded(eos, before, after):
-    """Have points lost most of the room that is between molecules?"""
+    """Has any point lost most of the free volume between its molecules?"""
 
 
 @generic
 def limited(eos, excess):
-    """The term that says what edges leave out."""
+    """The term that gives what edges leave out, such as `Limited`."""
 
 
 above_cold.of(IdealGas)(lambda eos, state: state)

@@ -1,9 +1,9 @@
-"""A triangulation as rings, compiled: of each point its neighbours, counterclockwise; in 2D.
+"""A 2D triangulation as rings, compiled: the ring of a point lists its neighbours counterclockwise.
 
-Rings change by flips alone. With the neighbours k and l after and before j, a ring has what an edge (i, j)
-needs: S_ij = R(x_k - x_l)/3, R(x, y) = (y, -x), and k_ij = (cot_k + cot_l)/2, the edges of linear finite
-elements; V_i is a third of the triangles around i. An edge with k_ij < 0 is not Delaunay's. Points on sides
-have chains, from one neighbour on the side to the other; there the middle of the edge stands for the missing
+Only flips change rings. In the ring of i, the neighbours k after j and l before j determine edge (i, j):
+S_ij = R(x_k - x_l)/3, R(x, y) = (y, -x), and k_ij = (cot_k + cot_l)/2, as in linear finite elements. V_i is a
+third of the area of the triangles around i. An edge with k_ij < 0 is not Delaunay. The ring of a point on a
+side is a chain from one neighbour on the side to the other; there the middle of the edge replaces the missing
 corner.
 """
 from typing import NamedTuple
@@ -15,19 +15,19 @@ from particles.integral.triangulation import outside, triangles
 from particles.neighbours import u32, u64
 from particles.pairs import Stored
 
-#: below this a conductance is negative, not round-off of points on one circle
+#: a conductance counts as negative below this; above, it may be round-off of points on one circle
 FLAT = -1e-9
-#: neighbours for which a ring has room at the least, one more than it has; points a row that is made longer
+#: smallest room of a ring, which exceeds its number of neighbours; points per spare row, see `flips.lengthen`
 ROOM, POINTS = 7, 16
-#: spacings: wider ones cost a third more, neighbours come in fewer runs through memory
+#: width of strips in spacings: neighbours lie in few runs of memory; wider strips cost a third more
 STRIP = 2.0
 NO_BODY = np.empty(0, int)
-LEAST = 8.0         # spacings along a periodic axis: in a narrower box a point is a neighbour twice
+LEAST = 8.0         # spacings along a periodic axis: in a narrower box a point may be a neighbour twice
 
 
 class Rings(NamedTuple):
-    """edges : rows of S/2 and k, neighbours in order. rim (n,) : is the ring a chain? size (2,) : of the
-    box; per (2,) : 1/size along periodic axes, 0 along others. room (n,) : of each row; end (1,) : of all."""
+    """edges : rows of neighbours in order, S/2, k. rim (n,) : whether the ring is a chain. size (2,) : of the
+    box; per (2,) : 1/size along periodic axes, else 0. room (n,) : of each row; end (1,) : of all rows."""
     edges: Stored
     rim: np.ndarray
     size: np.ndarray
@@ -38,10 +38,11 @@ class Rings(NamedTuple):
 
 def rings(x: np.ndarray, size: tuple[float, float], closed: tuple[bool, bool],
           body: np.ndarray = NO_BODY) -> Rings:
-    """Delaunay's triangulation of points (n, 2) in a box; `closed` says along which axes it ends at sides.
+    """Rings of the Delaunay triangulation of points (n, 2) in a box of this size.
 
-    It ends, too, at the points `body` of a convex one.
-    Raises ValueError: a periodic box less than LEAST spacings wide; what `triangulation` refuses.
+    closed : axes along which triangles end at sides. body : points on a convex body, where they end, too.
+    Raises ValueError: the box is less than LEAST spacings wide along a periodic axis, triangles around a
+    point form no ring, and what `triangulation` raises.
     """
     spacing = float(np.sqrt(size[0]*size[1]/len(x)))
     for name, length, shut in zip("xy", size, closed):
@@ -66,26 +67,26 @@ def rings(x: np.ndarray, size: tuple[float, float], closed: tuple[bool, bool],
 
 
 def table_of(rings: Rings) -> np.ndarray:
-    """Neighbours (n, stride), -1 where there is none."""
+    """Table of neighbours (n, stride), filled up with -1."""
     at, live = _places(rings)
     return np.where(live, rings.edges.near[at].astype(np.int32), -1)
 
 
 def spokes(rings: Rings) -> tuple[np.ndarray, ...]:
-    """Of each point neighbours, k, S_x/2, S_y/2 (n, stride), zero where there is no neighbour."""
+    """Neighbours, k, S_x/2, S_y/2 of each point, (n, stride) each; rows are filled up with k = S = 0."""
     at, live = _places(rings)
     return rings.edges.near[at], live*rings.edges.k[at], live*rings.edges.sx[at], live*rings.edges.sy[at]
 
 
 def _places(rings: Rings) -> tuple[np.ndarray, np.ndarray]:
-    """Of each point where its entries are (n, stride), and which of them there are."""
+    """Indices of the entries of each point, (n, stride), and whether each of them exists."""
     columns = np.arange(rings.edges.taken.max())
     live = columns < rings.edges.taken[:, None]
     return (rings.edges.first[:, None] + columns.astype(u64)*live), live
 
 
 def rows_of(table: np.ndarray, rim: np.ndarray, size: np.ndarray, per: np.ndarray) -> Rings:
-    """Rings from such a table; their edges are not known, and take no memory before they are."""
+    """Rings from a table as of `table_of`; S and k are zeros, which take no memory until they are written."""
     n, stride = table.shape
     edges = Stored((stride*np.arange(n)).astype(u64), (table >= 0).sum(axis=1).astype(u32),
                    np.maximum(table, 0).astype(u32).ravel(), *np.zeros((3, n*stride)))
@@ -93,7 +94,7 @@ def rows_of(table: np.ndarray, rim: np.ndarray, size: np.ndarray, per: np.ndarra
 
 
 def remade(rings: Rings, order: np.ndarray | None = None) -> Rings:
-    """Rings in memory of their own with room to change, their rows in another order if one is given."""
+    """Copy of rings with S = k = 0 and spare capacity for flips; rows in another order if one is given."""
     order = np.arange(len(rings.rim)) if order is None else order
     taken = rings.edges.taken[order]
     room = np.maximum(ROOM, taken + u32(1))
@@ -106,7 +107,7 @@ def remade(rings: Rings, order: np.ndarray | None = None) -> Rings:
 
 @jit
 def _renumber(order, place, old, new):
-    """Neighbours of rows `order`, each by its `place` there."""
+    """Copy the neighbours of rows `order`, numbered by their `place` in it."""
     for i in range(len(order)):
         shift = old.first[order[i]] - new.first[i]
         for e in range(new.first[i], new.first[i] + new.taken[i]):
@@ -114,13 +115,13 @@ def _renumber(order, place, old, new):
 
 
 def in_order(x: np.ndarray, size: np.ndarray) -> np.ndarray:
-    """Points (2, n) along strips of STRIP spacings: an order with neighbours near each other in memory."""
+    """Order of points (2, n) along strips of STRIP spacings: neighbours are near each other in memory."""
     strip = np.floor(x[0]/(STRIP*np.sqrt(size.prod()/x.shape[1])))
     return np.lexsort((x[1], strip))
 
 
 def _follow(rows: np.ndarray) -> tuple[list[int], bool]:
-    """The ring of rows (b, c) of b's successor c; is it a chain, whose first neighbour follows none?"""
+    """Ring from rows (b, c), in which c follows b, and whether it is a chain: its first one follows none."""
     after = dict(rows.tolist())
     first = [b for b in after if b not in after.values()]
     ring = [*first[-1:], *after][:1]
@@ -131,7 +132,7 @@ def _follow(rows: np.ndarray) -> tuple[list[int], bool]:
 
 @formula
 def apart(x, y, size, per, i, j):
-    """x_j - x_i by the nearest image."""
+    """x_j - x_i, to the nearest image of j."""
     dx, dy = x[j] - x[i], y[j] - y[i]
     return dx - size[0]*np.rint(dx*per[0]), dy - size[1]*np.rint(dy*per[1])
 
@@ -140,8 +141,8 @@ def apart(x, y, size, per, i, j):
 def geometry(first, last, at, rings, V, pull, spread, crossed, only=None):
     """S/2 and k of rows first..last, V, spread: sum_j k_ij/V_i, pull: from points to their triangles' centre.
 
-    crossed[i] : an edge to a point j > i is to be flipped. A triangle that has turned over gives V = nan.
-    only (n,) : of which rows, of all where there is none.
+    crossed[i] : whether an edge to a point j > i must be flipped. V is nan where a triangle has turned over.
+    only (n,) : which of the rows to compute; None for all.
     """
     (x, y), size, per, near = at, rings.size, rings.per, rings.edges.near
     for i in range(u64(first), u64(last)):

@@ -9,7 +9,7 @@
 
 A state (2 d + 3, n) begins with positions, which are not wrapped into the box. Then come rho, p, eps per
 volume, as RR98's m_i, p_i, eps_i are of equal volumes dV; or, at constant mass, m, p, E of the point; then V.
-A scheme that is conservative and consistent is another one: see `moving`.
+A scheme that is conservative and consistent is another one: see `closed_faces`.
 """
 from dataclasses import dataclass
 from typing import Any, NamedTuple

@@ -1,4 +1,4 @@
-"""What points that move with an entropy-stable flux need of their triangulation, compiled."""
+"""Compiled loops of `moving_stable`: points that move with their triangulation and an entropy-stable flux."""
 from continuum.fluid import sound_speed
 from continuum.jit import jit
 from particles.integral.flips import doubled
@@ -17,7 +17,7 @@ def _sound(first, last, eos, y, points):
 
 @jit
 def _gained(first, last, h, g, total, bench, y, before, after):
-    """Add what a time h brings; densities before and after it."""
+    """Add the exchange of a time h to the state; write the densities before and after it."""
     once, flow = bench.once, bench.flow
     for i in range(first, last):
         m, px, py, E, V = y[6, i], y[4, i], y[5, i], y[8, i], y[7, i]
@@ -30,7 +30,7 @@ def _gained(first, last, h, g, total, bench, y, before, after):
 
 @jit
 def _along(first, last, at, rings):
-    """What leads along edges."""
+    """Separations dx, dy along edges, at places `at`."""
     (x, y), edges = at, rings.edges
     for i in range(first, last):
         for e in range(edges.first[i], edges.first[i] + edges.taken[i]):
@@ -39,8 +39,8 @@ def _along(first, last, at, rings):
 
 @jit
 def _at_sides(first, last, term, points, rings, slopes):
-    """Differences along a side once more, so that slopes there are the mean of triangles', too: where an edge
-    ends the ring, S has the middle of the edge for a corner, and a slope has the point itself."""
+    """Correct slopes of points on sides to the mean over their triangles: at an end of a chain S takes the
+    middle of the edge for the missing corner, where a slope takes the point itself."""
     edges = rings.edges
     for i in range(first, last):
         if rings.rim[i]:
@@ -53,7 +53,7 @@ def _at_sides(first, last, term, points, rings, slopes):
 
 @jit
 def _turned(first, last, at, rings):
-    """A point with a triangle that has turned over, or -1."""
+    """A point with a triangle that has turned over at places `at`, or -1."""
     (x, y), edges = at, rings.edges
     for i in range(first, last):
         begin, end = edges.first[i], edges.first[i] + u64(edges.taken[i])

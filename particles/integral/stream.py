@@ -1,7 +1,7 @@
-"""Fixed points around bodies, compiled: the terms of `layer`, periodic, in 2D.
+"""Fixed points around bodies, compiled: the terms of `layer` in a periodic box, in 2D.
 
-Held points (`bodies`) keep their velocity and temperature; their density follows. Slow flow around them feeds
-patterns of pressure that no gradient sees; a filter of the density, chi of some 0.05 a^2 c^2/nu, ends that.
+Held points (`bodies`) keep their velocity and temperature; their density evolves. Slow flow around them feeds
+pressure patterns that gradients do not see; a filter of the density, chi of 0.05 a^2 c^2/nu, removes these.
 """
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
@@ -19,7 +19,7 @@ from particles.threads import Threads
 
 
 class Filter(NamedTuple):
-    """Mass chi k_ab (rho_a - rho_b) leaves a for b, with the mean velocity and internal energy."""
+    """Mass chi k_ab (rho_a - rho_b) goes from a to b, with their mean velocity and internal energy."""
     chi: float
 
 
@@ -31,7 +31,7 @@ def _(term, a, b, ab):
 
 
 class Filtering(Stage):
-    """Adds what a filter exchanges, over edges of its own."""
+    """Adds the exchange by a `Filter`, over edges of its own."""
 
     def __init__(self, term: Filter, edges: Stored, n: int, threads: Threads):
         self.term, self.edges, self.n, self.threads, self.gain = term, edges, n, threads, np.empty((n, 4))
@@ -42,7 +42,7 @@ class Filtering(Stage):
 
 
 class Streaming(FixedSums):
-    """The compiled sums of a stream. received (m, 3): momentum and energy of held points, per time."""
+    """Compiled sums of a stream. received (m, 3): momentum and energy that held points take per time."""
     method: "Stream"
 
     def __init__(self, method: "Stream", threads: Threads):
@@ -66,7 +66,7 @@ class Streaming(FixedSums):
             self.received[:, 2] -= held.heat
 
     def force(self, state: np.ndarray) -> np.ndarray:
-        """(fx, fy, heat and work) that all held points take together from the fluid, per time."""
+        """Force of the fluid on all held points together, and heat and work per time: (fx, fy, power)."""
         self.rates(state, np.empty_like(state))
         return self.received.sum(axis=0)
 
@@ -75,8 +75,8 @@ class Streaming(FixedSums):
 class Stream(OnPoints):
     """A fluid on fixed points x (n, 2), periodic, driven by a force `push` per mass, around `held` points.
 
-    chi : diffusivity of the filter of the density, 0 for none. solid : the edges between held points lie in
-    bodies; if not, these are rows on the edge of the fluid, which rubs and conducts along them, too.
+    chi : diffusivity of the filter of the density, 0 for none. solid : whether edges between held points lie
+    in bodies; if not, held points are rows on the fluid's boundary, with friction and heat along them, too.
     """
     x: np.ndarray
     edges: Edges
@@ -103,7 +103,7 @@ class Stream(OnPoints):
 
 
 def insulated(edges: Edges, held: Held) -> Edges:
-    """Edges without friction and heat between points of two bodies, and within adiabatic ones."""
+    """Edges without friction and heat between points of two bodies, and within adiabatic bodies."""
     body = np.full(edges.n, -1)
     body[held.which] = np.where(np.isnan(held.T), -2 - np.arange(len(held.T)), held.body)
     a, b = body[edges.i], body[edges.j]
@@ -111,14 +111,14 @@ def insulated(edges: Edges, held: Held) -> Edges:
 
 
 def separated(edges: Edges, held: Held) -> Edges:
-    """Edges that do not conduct between held points, for the filter: no mass seeps through a body."""
+    """Edges for the filter, with k = 0 between held points: no mass seeps through a body."""
     inside = np.isin(np.arange(edges.n), held.which)
     return replace(edges, k=np.where(inside[edges.i] & inside[edges.j], 0.0, edges.k))
 
 
 @jit
 def hold(eos, law, which, v, T, points):
-    """Held points have their own velocity and temperature, to the last digit."""
+    """Set held points to their own velocity and temperature, exactly."""
     for m in range(len(which)):
         a = points[which[m]]
         a.vx, a.vy = v[m, 0], v[m, 1]
@@ -131,7 +131,7 @@ def hold(eos, law, which, v, T, points):
 
 @jit
 def keep(eos, which, v, T, total, V, points, received, out):
-    """Rates of held points, whose density alone is free, and what they take."""
+    """Rates of held points, of which only the density evolves, and the momentum and energy they take."""
     for m in range(len(which)):
         i, (vx, vy) = which[m], v[m]
         mass, rho, d = total[i, 0], points[i].rho, 1e-6*points[i].rho

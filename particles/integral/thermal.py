@@ -1,7 +1,7 @@
 """Fluctuating hydrodynamics in time: `dih` with random stress and heat current    [RR98 Secs II D, III A]
 
 Amplitudes are those of `fluctuating`, at current temperatures as RR98 says after Eq. 44; random numbers are
-functions of (seed, step, i, j). What is not listed is not drawn: no share along edges, no numbers of pairs.
+functions of (seed, step, i, j). Without a share along edges none are drawn for pairs.
 """
 import warnings
 from dataclasses import dataclass, field
@@ -19,21 +19,21 @@ from particles.method import Sums
 from particles.noise import check_seed, fill_normals, normals, words_of_pair
 from particles.threads import Threads
 
-#: heat capacity of a point over k, below which current amplitudes bias energy fluctuations by 1 % and more
+#: heat capacity of a point over k; below it amplitudes at current T bias energy fluctuations by 1 % and more
 LEAST_CAPACITY = 50
-#: of the second half of the noise in stages 1, 2, 3    [Delong, Griffith, Vanden-Eijnden & Donev 2013]
+#: factors of the second noise W_B in stages 1, 2, 3    [Delong, Griffith, Vanden-Eijnden & Donev 2013]
 BETAS = tuple(float(b) for b in ((2*np.sqrt(2) + np.sqrt(3))/5, (-4*np.sqrt(2) + 3*np.sqrt(3))/5,
                                  (np.sqrt(2) - 2*np.sqrt(3))/10))
-#: shares of the state before the step in stages 1, 2, 3; the rest is an Euler step of the last stage
+#: shares of the state before the step in stages 1, 2, 3; the rest is an Euler step from the stage before
 OLD = (0.0, 3/4, 1/3)
-#: c in <dx> = c B B' dt of three stages, each with B of its own state: 0 would be Ito's, 1/2 Stratonovich's
+#: c in the drift <dx> = c B B' dt of three stages, each with B of its own state: Ito has 0, Stratonovich 1/2
 STAGED = (1 + BETAS[0]*BETAS[1])/6 + (2 + BETAS[2]*(BETAS[0] + BETAS[1]))/6
 
 
 class ThreeStage:
-    """Three Euler steps, averaged, each with its share of two noises; covariances of third order.
+    """Three averaged Euler steps, each with its own mean of two noises; covariances of third order.
 
-    sums.kicks(y, beta, dt, out) writes what the noise W_A + beta W_B adds    [Delong et al. 2013]
+    sums.kicks(y, beta, dt, out) writes the change by the noise W_A + beta W_B    [Delong et al. 2013]
     """
     evaluations = 3
 
@@ -52,8 +52,8 @@ class ThreeStage:
 class Thermal(Dih):
     """A fluid on fixed points with the fluctuations of its own transport, of which a share goes along edges.
 
-    Noise and dissipation are partners along edges, and with constant coefficients; where these vary the
-    stress of Eqs 37, 38 at points is no symmetric matrix and has no exact partner.
+    Noise balances dissipation along edges, and at points with constant coefficients. Where these vary, the
+    friction of Eqs 37, 38 at points is no symmetric matrix, and no noise balances it exactly.
     k : Boltzmann's constant in the units of the fluid. Others as in `dih.Dih`.
     """
     k: float
@@ -70,7 +70,7 @@ class Thermal(Dih):
         object.__setattr__(self, "transport", Mixed(share=self.share))
 
     def start(self, n: int, threads: Threads) -> "Agitated":
-        """The sums over edges. ValueError: another number of points, or viscosities without noise."""
+        """The sums over edges. ValueError: another number of points, a double edge, or a conductance < 0."""
         check_number(n, self.edges.n)
         return Agitated(self, threads)
 
@@ -79,11 +79,11 @@ class Agitated(Sums):
     """Rates without noise, and kicks of one step."""
 
     def __init__(self, method: Thermal, threads: Threads):
-        # the flow without noise, which a run holds
+        # `dih` gives the flow without noise
         self.method, self.threads, self.dih = method, threads, method
         edges = method.edges
         d, n = edges.d, edges.n
-        # R, r, heat; of W_A and W_B
+        # normal numbers R, r, heat of W_A and of W_B
         self.of_points = np.empty((n, 2*(d*d + 1 + d))) if method.share < 1 else None
         self.of_edges = np.empty((len(edges.i), 2*(d + 2))) if method.share > 0 else None   # R, r, heat
         if method.share > 0:
@@ -102,7 +102,7 @@ class Agitated(Sums):
             self.threads(fill_pairs, len(edges.i), seed, now.step, edges.i, edges.j, self.of_edges)
 
     def kicks(self, state: np.ndarray, beta: float, dt: float, out: np.ndarray) -> None:
-        """What the noise W_A + beta W_B adds to a state in dt, with the amplitudes of that state."""
+        """Change of a state in dt by the noise W_A + beta W_B, with the amplitudes of that state."""
         flow, share, parts = self.dih.flow(state), self.method.share, []
         if self.of_points is not None:
             parts.append(self._at_points(flow, halves(self.of_points, beta)*np.sqrt((1 - share)*dt)))
@@ -111,7 +111,7 @@ class Agitated(Sums):
         out[:] = gained(self.dih.edges, *parts)/self.dih.edges.V
 
     def _at_points(self, flow: Flow, dW: np.ndarray) -> EdgeFluxes:
-        """By random stresses and currents: -S.(s_i + s_j)/2, -S.(s_j.v_i + s_i.v_j)/2 + S.(q_i + q_j)/2."""
+        """Random stresses and currents: -S.(s_i + s_j)/2, -S.(s_j.v_i + s_i.v_j)/2 + S.(q_i + q_j)/2."""
         edges, (eta, zeta, kappa), k = self.dih.edges, self.dih.coefficients(flow), self.method.k
         i, j, d, half = edges.i, edges.j, edges.d, edges.S/2
         s = np.sqrt(2*k*flow.T*eta/edges.V)[:, None]*(dW[:, :d*d]@traceless(d).T)
@@ -123,7 +123,7 @@ class Agitated(Sums):
         return EdgeFluxes(np.zeros(len(i)), -one - other, -work + (half*(q[i] + q[j])).sum(axis=1))
 
     def _along_edges(self, flow: Flow, dW: np.ndarray) -> EdgeFluxes:
-        """Through edges by random forces along them, their work, and heat."""
+        """Exchange by random forces along edges, their work, and random heat."""
         edges, d = self.dih.edges, self.dih.edges.d
         a, b, all_of = take(flow, edges.i), take(flow, edges.j), self.dih.coefficients(flow)
         check_bulk(all_of.eta, all_of.zeta, d)
@@ -155,8 +155,8 @@ def fill_pairs(first, last, seed, step, i, j, out):
 
 @limit_of.register
 def _(method: Thermal, start: np.ndarray) -> float:
-    """Three stages: 1.73 on the imaginary axis for sound, 2.51 on the real one for diffusion. Warns where a
-    point holds so little heat that current amplitudes bias its fluctuations."""
+    """Longest stable step of three stages: 1.73 on the imaginary axis for sound, 2.51 on the real one for
+    diffusion. Warns if a heat capacity is so small that amplitudes at current T bias fluctuations."""
     flow, (sound, spread) = method.flow(start), method.edges.fastest
     e = energy(method.eos, flow.rho, flow.T)
     C = (energy(method.eos, flow.rho, flow.T*(1 + 1e-6)) - e)/(1e-6*flow.T)

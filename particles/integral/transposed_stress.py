@@ -1,12 +1,12 @@
-"""What forces along edges lack of a fluid's stress, and its work, in 2D without bulk viscosity.
+"""Correction of forces along edges to a fluid's stress, and its work, in 2D without bulk viscosity.
 
-Forces along edges push by d_b(eta d_b v_a); a fluid's stress by d_b(eta d_a v_b) - d_a(eta div v) besides,
-the divergence of
+Forces along edges give d_b(eta d_b v_a); a fluid's stress adds d_b(eta d_a v_b) - d_a(eta div v), the
+divergence of
 
     tau = eta ((-d_y v, d_y u), (d_x v, -d_x u))      (direction, component)    [`dih.transposed`]
 
-It vanishes where eta is constant; its work F = tau.v never does: without it even a rigid rotation heats. What
-feels F feels tau where a law makes eta vary.
+This divergence is zero where eta is constant; that of the work F = tau.v is not: without F even a rigid
+rotation heats. `Mending` adds F, and tau as well where the law makes eta vary.
 """
 from collections.abc import Callable
 from typing import Any, NamedTuple
@@ -23,19 +23,19 @@ Tau = np.dtype([(name, "f8") for name in ("xx", "xy", "yx", "yy")])
 
 
 class Mending(NamedTuple):
-    """S.(F_a + F_b)/2: energy; S.(tau_a + tau_b)/2, momentum, where viscosity varies. Of a share of it."""
+    """Energy S.(F_a + F_b)/2; where viscosity varies, momentum S.(tau_a + tau_b)/2 as well. Of a share."""
     share: float = 1.0
 
 
 class Differences(NamedTuple):
-    """V grad v by differences: d_x u, d_y u, d_x v, d_y v."""
+    """V times grad v, by differences: d_x u, d_y u, d_x v, d_y v."""
 
 
 class Transposed(NamedTuple):
-    """S.(tau_a + tau_b)/2: momentum."""
+    """Momentum S.(tau_a + tau_b)/2."""
 
 
-#: friction along edges with the heating, and the force, of a fluid
+#: conduction, and friction along edges with the correction to a fluid's heating and force
 MENDED = (Conduction(), Mending(), Friction())
 
 
@@ -56,10 +56,10 @@ def _(term, a, b, ab):
 
 
 class Heating(Stage):
-    """Makes F of points and images.
+    """Computes F of points and images.
 
-    Slopes see -v beyond a plate; tau is odd along it and even across, F the other way round: no energy goes
-    through. over : how terms read edges; places : what this reads of points.
+    Slopes see -v beyond a plate; tau is odd along it and even across, F even along and odd across: no energy
+    goes through. over : wraps terms for the kind of edges; places : fields of points that `over` reads.
     """
 
     def __init__(self, share: float, n: int, threads: Threads, over: Callable[[Any], Any] = lambda term: term,
@@ -78,7 +78,7 @@ class Heating(Stage):
 
 
 class HeatingAndForce(Heating):
-    """Makes F, and adds what tau pushes by."""
+    """Computes F, and adds the force of tau."""
 
     def add(self, at: At, total: np.ndarray) -> None:
         tau = np.empty(len(at.points), [*Tau.descr, *((name, "f8") for name in self.places)])

@@ -1,8 +1,8 @@
-"""What van der Waals' fluid needs of `entropy_fluxes` and `positive`: means, waves, limits.
+"""Van der Waals' fluid in `entropy_fluxes` and `positive`: formulas of means, waves, limits.
 
 s = c_v ln T - ln(rho/u), u = 1 - b rho, is concave where pressure grows with density at constant T, which it
 does at all densities above the critical T = 8 a/27 b. Elsewhere two states may have no mean [Tadmor 1987]:
-densities are then cut to what lies between, and entropy is not kept.
+the mean density is then clipped to the range of both, and entropy is not conserved.
 """
 from typing import NamedTuple
 
@@ -22,13 +22,13 @@ from particles.integral.entropy_fluxes import (
 from particles.integral.positive import KEPT, Excess, above_cold, crowded, limited, share
 from particles.pairs import pair_term, rate
 
-SOFT = 1e-3         # of the pressure of hard discs' slope, below which attraction takes none of it
+SOFT = 1e-3         # attraction leaves at least this part of the dP/drho of hard discs
 
 
 @log_means.of(VanDerWaals)
 def _(eos, a, b):
-    """By D(fh) = {f} Dh + {h} Df of P/T = rho/u - a rho^2/T, g/T = b rho/u + ln(rho/u) - c_v ln T - 2 a rho/T
-    + const.: the parts with D(rho) give rho*, D(rho/u) = D(rho)/(u_a u_b), those with D(1/T) then e*."""
+    """rho*, e* by D(fh) = {f} Dh + {h} Df of P/T = rho/u - a rho^2/T and g/T = b rho/u + ln(rho/u) - c_v ln T
+    - 2 a rho/T + const.: terms in D(rho) = u_a u_b D(rho/u) give rho*, then terms in D(1/T) give e*."""
     u_a, u_b, beta, rho = 1 - eos.b*a.rho, 1 - eos.b*b.rho, 0.5/a.T + 0.5/b.T, 0.5*(a.rho + b.rho)
     room, pull = 1/(u_a*u_b), 2*eos.a*beta
     log = over_mean(a.rho, b.rho)/rho + eos.b*2*over_mean(u_a, u_b)/(u_a + u_b)     # D ln(rho/u)/D(rho)
@@ -40,7 +40,7 @@ def _(eos, a, b):
 
 @formula
 def stiffness(eos, rho, T):
-    """dP/drho at constant T, not below SOFT of that without attraction; c^2."""
+    """(dP/drho at constant T, at least SOFT of that without attraction; c^2)"""
     room = 1 - eos.b*rho
     hard = T/(room*room)
     soft = max(hard - 2*eos.a*rho, SOFT*hard)
@@ -49,10 +49,9 @@ def stiffness(eos, rho, T):
 
 @brought.of(VanDerWaals)
 def _(eos, a, b, ab, P, r, by_x, by_y):
-    """`waves` of any fluid: R R^T = dU/dq has rho T/c^2 of sound, with it h; rho T (1/c_T^2 - 1/c^2) of
-    entropy, with it D(rho e)/D(rho) at constant P; rho T of velocities    [Barth 1999; Landau & Lifshitz]
-
-    h = e* + {P}/rho* makes the jump of sound {1/T} D(P)/rho*, nothing at a contact.
+    """`waves` of any fluid: R R^T = dU/dq weighs sound by rho T/c^2, which carries h; entropy by rho T
+    (1/c_T^2 - 1/c^2), which carries D(rho e)/D(rho) at constant P; velocities by rho T    [Barth 1999;
+    Landau & Lifshitz]. With h = e* + {P}/rho* the jump of sound is {1/T} D(P)/rho*, zero at a contact.
     """
     (dP, P0, P1), (drho, r0, r1), (du, u0, u1), (dv, v0, v1) = P, r, by_x, by_y
     size = np.sqrt(ab.sx*ab.sx + ab.sy*ab.sy)
@@ -82,15 +81,15 @@ def _(eos, a, b, ab, P, r, by_x, by_y):
 
 
 class LimitedRoom(NamedTuple):
-    """`positive.Limited` of molecules that fill a part b rho of their room and attract each other: a rho^2
-    is not below its tangent at the low-order density, and so heat is not below a quadratic."""
+    """`positive.Limited` of molecules that fill a part b rho of the volume and attract each other: a rho^2 is
+    not below its tangent at the low-order density, so that internal energy is not below a quadratic."""
     excess: Excess
     eos: VanDerWaals
 
 
 @formula
 def share_of_room(eos, a, m, px, py, e):
-    """`share`, and KEPT of a point's low-order room 1 - b rho."""
+    """`share` that leaves a point KEPT of its low-order free volume 1 - b rho, too."""
     part = share(a, m, px, py, e + 2*eos.a*a.low_rho*m)
     return min(part, (1 - KEPT)*(1 - eos.b*a.low_rho)/max(eos.b*m, 1e-300))
 
