@@ -1,4 +1,4 @@
-"""A method in a scene, ready to run: the one place where both meet.
+"""Set up a method in a scene, ready to run: the one place where methods and scenes meet.
 
     from particles.run import Plan, run
     from studies.build import SCENES, ready
@@ -6,10 +6,10 @@
     method, start, dt = ready(SCENES["rayleigh-benard"](rows=16), "fixed-lattice", seed=1)
     done = run(method, start, Plan(dt=dt, steps=100))
 
-A record of a family (`Variant`, `Scheme`, `FacesMotion`, `DriftMotion`, `GridForm`) or a method of one's own,
-with `state(x, rho, v, T)`, may stand in its place. Of a record `refuses(scene)` is the part of a scene that
-it cannot take, or empty, `ready` the method in a scene, from places x (n, 2) and fields (rho, v, T) there, if
-given; `series` are quantities of a run: K, and heat through both plates.
+In place of a name, `ready` takes a record of a family (`Variant`, `Scheme`, `FacesMotion`, `DriftMotion`,
+`GridForm`) or a method of one's own with `state(x, rho, v, T)`. A record has `refuses(scene)`, the part of a
+scene that it cannot take (empty if none), `ready(scene, seed, ...)`, the method in a scene, of most families
+from given fields (rho, v, T), and, but for the grid, `series`, quantities of a run: K, heat through plates.
 """
 from collections.abc import Callable, Iterable, Mapping
 from difflib import get_close_matches
@@ -26,7 +26,7 @@ from studies.build.scenes import Sound, TaylorGreen, between_plates
 from studies.build.setting import CannotTake, Ready, of_method
 
 ROWS = 16
-FEW = 12        # names, which are all told
+FEW = 12        # an error message lists all names of a table that has no more than these
 
 
 def convection(rows: int = ROWS, ra: float = 1e4, **more: Any) -> RayleighBenard:
@@ -35,11 +35,11 @@ def convection(rows: int = ROWS, ra: float = 1e4, **more: Any) -> RayleighBenard
 
 
 def box(rows: int = ROWS, **more: Any) -> RayleighBenard:
-    """The same in a square box, side walls with the conduction profile    [KHP95, Fig. 6]"""
+    """A gas heated from below in a square box, side walls with the conduction profile    [KHP95, Fig. 6]"""
     return convection(rows, **{"aspect": 1.0, "sides": Walls(), **more})
 
 
-#: name -> maker of a scene of so many rows of points or cells, which takes its numbers besides
+#: name -> function that makes the scene, from its number of rows of points or cells and its parameters
 SCENES: dict[str, Callable[..., Any]] = {
     "rayleigh-benard": convection,
     "rayleigh-benard-box": box,
@@ -54,7 +54,7 @@ SCENES: dict[str, Callable[..., Any]] = {
 
 
 def prefixed(family: str, variants: Mapping[str, Any], usual: str) -> dict[str, Any]:
-    """Names with the family before them; the usual variant has the family's own."""
+    """Variants by names that begin with the family's; the usual variant has the family's alone."""
     return {family if name == usual else f"{family}-{name.removeprefix(f'{usual}-')}": variant
             for name, variant in variants.items()}
 
@@ -62,20 +62,19 @@ def prefixed(family: str, variants: Mapping[str, Any], usual: str) -> dict[str, 
 FAMILIES = (prefixed("grid", grid.FORMS, "flux-form"),
             prefixed("spam", spam.VARIANTS | spam.TODAY, "printed"), fixed.SCHEMES, moving.CARRIAGES,
             stable.STABLE, moving.STABLE, moving.MOTIONS, moving.DRIFT_MOTIONS)
-#: name -> variant; tables have the family in another column
+#: name -> variant; tables have the family in a column of its own
 METHODS = {name: variant for family in FAMILIES for name, variant in family.items()}
-#: the best known of each family
+#: the best known method of each family
 USUAL = ("grid", "spam", "fixed-lattice", "fixed-jittered-plates", "moving-delaunay", "moving",
          "moving-literal")
 
 
 def ready(scene: Any, method: Any, seed: int = 1, **more: Any) -> Ready:
-    """A method in a scene, by its name, by a variant, as an object, or a class or function of the scene.
+    """A method in a scene, ready to run; given by name, as a variant or object, or a class or function of the
+    scene. more : further arguments of the variant's `ready`.
 
-    more : as the family takes.
-
-    Raises ValueError: No method has this name, or the family cannot take the scene. TypeError: this is no
-    method, or the scene's transport law lacks a formula.
+    Raises ValueError: no method has this name, or the family cannot take the scene. TypeError: what is given
+    is not a method, or the scene's transport law lacks a formula.
     """
     chosen = variant(method)
     check_formulas(scene.law, viscosity, conductivity)
@@ -91,8 +90,8 @@ def ready(scene: Any, method: Any, seed: int = 1, **more: Any) -> Ready:
 
 
 def variant(method: Any) -> Any:
-    """The variant of a name; what is no name is one, or a method. Raises ValueError: nothing has the name.
-    TypeError: it is neither."""
+    """The variant of a name; a variant or a method is returned as it is. Raises ValueError: no method has the
+    name. TypeError: the argument is not a name, a variant or a method."""
     if isinstance(method, str):
         return of_name("method", method, METHODS)
     if not (callable(method) or hasattr(method, "ready") or hasattr(method, "state")):
@@ -102,7 +101,7 @@ def variant(method: Any) -> Any:
 
 
 def called(method: Any) -> str:
-    """The name of a method in messages, titles and tables: of a variant the one that `METHODS` has."""
+    """Name of a method in messages, titles and tables; of a variant its name in `METHODS`."""
     if isinstance(method, str):
         return method
     same = [name for name, known in METHODS.items() if known is method]
@@ -115,7 +114,7 @@ def variants(*names: str) -> dict[str, Any]:
 
 
 def of_name(kind: str, name: str, table: Mapping[str, Any]) -> Any:
-    """What has a name in a table. Raises ValueError: nothing has it."""
+    """Entry of a table under a name. Raises ValueError: the table lacks it; the message suggests others."""
     if name in table:
         return table[name]
     why = f"no {kind} is called {name!r}"
@@ -125,7 +124,7 @@ def of_name(kind: str, name: str, table: Mapping[str, Any]) -> Any:
 
 
 def near(name: str, names: Iterable[str]) -> str:
-    """Which names are like one; if none is, all where these are few, else the usual ones."""
+    """Hint for an error message: similar names; if there are none, all names if few, else the usual ones."""
     known = list(names)
     if alike := get_close_matches(name, known, 4, 0.4):
         return f"near to it are {', '.join(alike)}"

@@ -1,7 +1,7 @@
-"""What a scene is asked: for how long it runs, what its exact answer is, where particles of one mass start.
+"""Properties of a scene besides its start: length of a run, exact solution, particles of equal mass.
 
-A scene that knows has `duration`, `answer`, `quantities`, `of_one_mass`; it needs none. `counted` is what a
-number of rows stands for, if not its height L.
+A scene may define `duration`, `answer`, `quantities`, `of_one_mass`; here each has a default. `counted` names
+the length that is the number of rows, if that is not the height L.
 """
 from collections.abc import Callable
 from dataclasses import replace
@@ -18,19 +18,19 @@ FALLS = 90.0        # free-fall times: K of rolls at Ra 10 000 then changes by 0
 
 
 def duration(scene: Any) -> tuple[float, float]:
-    """(length of a run in units of time of the scene, this unit); with an answer, until it is known."""
+    """(length of a run in the scene's unit of time, this unit); exact solutions are known at its end."""
     if isinstance(scene, RayleighBenard):
         return FALLS, scene.L/scene.free_fall
     return scene.duration if hasattr(scene, "duration") else (1.0, float(scene.time))
 
 
 def rows_of(scene: Any) -> int:
-    """Points or cells over the height, or over the wavelength of sound."""
+    """Number of points or cells over the counted length: the height, or the wavelength of sound."""
     return round(getattr(scene, counted(scene)))
 
 
 def with_rows(scene: Any, rows: int) -> Any:
-    """The same scene of so many points or cells."""
+    """The same scene with another number of rows of points or cells."""
     if hasattr(scene, "resized"):
         return scene.resized(rows)
     name = counted(scene)
@@ -38,22 +38,22 @@ def with_rows(scene: Any, rows: int) -> Any:
 
 
 def counted(scene: Any) -> str:
-    """The length of the scene that rows count."""
+    """Name of the scene's length that is its number of rows."""
     return getattr(scene, "counted", "L")
 
 
 def answer(scene: Any, x: np.ndarray) -> dict[str, np.ndarray]:
-    """Exact fields at the end at places (n, 2), by the names vx, vy, T; none where they are not known."""
+    """Exact fields at the end of a run at positions x (n, 2), by names such as vx, T; empty if not known."""
     return scene.answer(x) if hasattr(scene, "answer") else {}
 
 
 def quantities(scene: Any) -> dict[str, Callable]:
-    """What a history has besides K and Nu: functions of fields; `wave` gives a growth rate."""
+    """Functions of fields that a history records besides K and Nu; `wave` grows at a rate to be measured."""
     return getattr(scene, "quantities", {})
 
 
 def of_one_mass(scene: Any, seed: int) -> tuple[Any, Any]:
-    """Places (n, 2) of particles of one mass, and fields there; two None where the density is 1."""
+    """Start positions (n, 2) of particles of equal mass, and fields there; two None if the density is 1."""
     if hasattr(scene, "of_one_mass"):
         return scene.of_one_mass(seed)
     if not isinstance(scene, Domain) or scene.start or not scene.g:

@@ -12,8 +12,8 @@ from continuum.fluid import Fields, IdealGas, energy, expansivity, sound_speed
 from continuum.published import table
 from continuum.sides import Plate
 
-NEAR = 16           # points that a quadratic, which has six coefficients, is fitted to
-FINE = 4            # places on a mid-plane to a row of points
+NEAR = 16           # nearest points to which a quadratic, with six coefficients, is fitted
+FINE = 4            # places on a mid-plane per row of points
 PRINTED = {"nu_hot": "nu-wall", "nu_middle": "nu-middle", "u_max": "u-max", "v_max": "v-max"}
 KNOWN = ("1e3", "1e4", "1e5", "1e6")        # Ra, at Pr 0.71
 
@@ -21,12 +21,13 @@ KNOWN = ("1e3", "1e4", "1e5", "1e6")        # Ra, at Pr 0.71
 def cavity(rows: int = 32, ra: float = 1e4, pr: float = 0.71, mach: float = 0.03, dT: float = 0.3) -> Domain:
     """A square of gas of mean temperature 1, hot on the left, cold on the right, adiabatic below and above.
 
-    ra, pr : with kappa = k/(rho c_P), as pressure is all but even. mach : free-fall velocity over sound's. A
-    gas that rises cools: by (mach/dT)^2 of dT over the height. That, not the compression of the flow, is what
-    differs from a liquid. On 64 rows at Ra 1e4, Nu of the middle and v_max differ from the Boussinesq ones by
-    some 28 (mach/dT)^2 per cent while that is small, u_max by 38; dT itself does not show up to 0.3. So take
-    mach = dT/10 for 0.3 %; the time for a run goes as 1/mach. Held points err by some (dT/mach)^2/rows^2
-    besides, as they exchange P(rho_a, T_b): by 13 % of Nu at mach = dT/3 with 16 rows, by 45 % at dT/10.
+    ra, pr : with kappa = k/(rho c_P), as the pressure is almost uniform. mach : free-fall velocity over the
+    speed of sound. A rising gas cools by (mach/dT)^2 of dT over the height: this, not the compressibility of
+    the flow, makes the difference to a liquid. With 64 rows at Ra 1e4, Nu of the mid-plane and v_max differ
+    from the Boussinesq values by about 28 (mach/dT)^2 per cent, u_max by 38, while these are small; dT itself
+    has no visible effect up to 0.3. So take mach = dT/10 for 0.3 %; the cost of a run grows as 1/mach. Points
+    that stay have a further error of about (dT/mach)^2/rows^2, as they exchange P(rho_a, T_b): 13 % of Nu at
+    mach = dT/3 with 16 rows, 45 % at dT/10.
 
     Raises ValueError: a number is not positive, or dT is not below 2.
     """
@@ -46,10 +47,10 @@ def diffusivity(scene: Domain) -> float:
 
 
 def observed(scene: Domain, at: Fields) -> dict[str, float]:
-    """Nu of the hot side and of the vertical mid-plane; largest u on that plane and v on the level one.
+    """Nu of the hot side and of the vertical mid-plane; largest u there and v on the horizontal one.
 
-    From fields at points or nodes, as `fields` of a method gives them. Velocities are in kappa/L: the mean of
-    both directions, which are equal in a liquid.
+    at : fields at points or nodes, as `fields` of a method returns them. Velocities are in kappa/L, each the
+    mean of the largest ones in both directions, which are equal in a liquid.
     """
     s = (np.arange(FINE*round(scene.L)) + 0.5)/(FINE*round(scene.L)) - 0.5
     upright, level = (scene.L*np.stack(pair, axis=1) for pair in ((0*s, s), (s, 0*s)))
@@ -57,14 +58,14 @@ def observed(scene: Domain, at: Fields) -> dict[str, float]:
     rho, u, v, T, T_x = fitted(at, upright)
     _, _, rising, *_ = fitted(at, level)
     enthalpy = (scene.eos.cv + 1)*(T - scene.T_mean) + (u**2 + v**2)/2 + scene.g*upright[:, 1]
-    unit = scene.dT/scene.L     # of what an even temperature would carry nothing is counted: no mass passes
+    unit = scene.dT/scene.L     # enthalpy counts from T_mean: the net mass flux is zero
     heat = np.mean(rho*u*enthalpy/scene.k - T_x)
     speeds = [np.ptp(q)/2*scene.L/diffusivity(scene) for q in (u, rising)]
     return dict(zip(PRINTED, map(float, (-hot_slope.mean()/unit, heat/unit, *speeds))))
 
 
 def fitted(at: Fields, places: np.ndarray) -> np.ndarray:
-    """(rho, u, v, T, dT/dx), each (m,), of quadratics through the points nearest to each place (m, 2)."""
+    """(rho, u, v, T, dT/dx), each (m,), at places (m, 2): quadratics fitted to the points nearest to each."""
     _, near = cKDTree(at.x).query(places, NEAR)
     x, y = np.moveaxis(at.x[near] - places[:, None], 2, 0)
     terms = np.stack([np.ones_like(x), x, y, x*x, x*y, y*y], axis=2)
@@ -74,7 +75,7 @@ def fitted(at: Fields, places: np.ndarray) -> np.ndarray:
 
 
 def compared(scene: Domain, at: Fields) -> pd.DataFrame:
-    """A row a number: found, printed with its uncertainty, spectral; the last three nan at other Ra, Pr."""
+    """A row per number: found, printed with uncertainty, spectral; the last three nan at other Ra, Pr."""
     kappa, alpha = diffusivity(scene), expansivity(scene.eos, 1.0, scene.T_mean)
     ra, pr = scene.g*alpha*scene.dT*scene.L**3/(scene.eta*kappa), scene.eta/kappa
     of = next((word for word in KNOWN if np.allclose((ra, pr), (float(word), 0.71))), "none")

@@ -31,17 +31,17 @@ from studies.build.setting import (
     sticking,
 )
 
-OF_LIMIT = 0.8      # of the step to its stability limit: the flow is steady, its errors are of space alone
+OF_LIMIT = 0.8      # time step over its stability limit: the flow is steady, its errors are of space alone
 
 
 def hard_core(width: float, height: float, size: float, seed: int) -> np.ndarray:
-    """Points (n, 2) at random, none nearer to another than `size` spacings."""
+    """Random points (n, 2) between plates, no two nearer than `size` spacings."""
     return inside(height, random((round(width), round(height)), size, seed).x)
 
 
 @cache
 def settled(width: float, height: float, size: float, seed: int) -> np.ndarray:
-    """Random points that have moved apart with their mirror images until each is surrounded evenly."""
+    """Random points (n, 2) between plates, relaxed with mirror images until each is surrounded evenly."""
     x, shift, mirror = hard_core(width, height, size, seed), np.array([0.0, height/2]), np.array([1.0, -1.0])
     both = of_positions(np.concatenate([x - shift, (x - shift)*mirror]), (width, 2*height))
     return inside(height, relaxed(both, WendlandC2.of(h=3.0), sweeps=4000).x[:len(x)] + shift)
@@ -50,9 +50,10 @@ def settled(width: float, height: float, size: float, seed: int) -> np.ndarray:
 class Scheme(NamedTuple):
     """One way to make points and edges.
 
-    size : of the points' disorder, in spacings. share : of transport along edges.
-    held : plates are rows of points that are held, in place of mirror images behind them.
-    kind : of a fluid between mirrors. lacks : what it does not take of a scene, empty for nothing.
+    size : disorder of the points, in spacings. share : part of friction and heat along edges, the rest is
+    nested. mended : friction along edges heats as the stress does. held : plates are rows of held points, in
+    place of mirror images behind them. kind : class of the method with images or in a periodic box.
+    lacks : function of a scene that names the part which the scheme cannot take, empty if none.
     """
     name: str
     make: Callable = renormalised
@@ -105,14 +106,14 @@ SCHEMES = {s.name: s for s in (
 
 
 def fluid(scene: Any, scheme: Scheme, seed: int = 1) -> Layer | Stream:
-    """The method of unit spacing: a scene of L = rows spacings; a torus has no plates to hold points on."""
+    """The method on points of unit spacing in a scene; a torus has no plates to hold points on."""
     check_points(scheme, scene)
     held = scheme.held and not isinstance(scene.sides, Torus)
     return (plates if held else layer)(scene, scheme, seed)
 
 
 def layer(scene: Any, scheme: Scheme, seed: int) -> Layer:
-    """Plates with mirror images behind, or none."""
+    """The method between plates with mirror images behind them, or in a periodic box."""
     box, weight, place = (scene.width, scene.L), scheme.weight.of(h=scheme.h), scheme.points
     if isinstance(scene.sides, Torus):
         points = of_positions((shifted if place is positions else place)(*box, scheme.size, seed), box)
@@ -126,9 +127,9 @@ def layer(scene: Any, scheme: Scheme, seed: int) -> Layer:
 
 
 def with_term(method: Any, term: Any) -> Layer:
-    """Points that exchange by a pair term of one's own besides, over the same edges.
+    """The method with a pair term of one's own added, over the same edges.
 
-    Raises TypeError: The method has no such edges.
+    Raises TypeError: the method is not a `Layer`, whose edges pair terms need.
     """
     if not isinstance(method, Layer):
         able = [name for name, scheme in SCHEMES.items() if not scheme.held]
@@ -138,7 +139,7 @@ def with_term(method: Any, term: Any) -> Layer:
 
 
 def plates(scene: Any, scheme: Scheme, seed: int) -> Stream:
-    """Sides with rows of points on them: triangles end there. One row of points less between two sides."""
+    """The method with rows of held points on closed sides, where triangles end."""
     box, sides = (scene.width, scene.L), four_sides(scene)
     closed = not sides.axes[0], not sides.axes[1]
     x, rows = between_sides(box, closed, scheme.points, scheme.size, seed)
@@ -147,14 +148,14 @@ def plates(scene: Any, scheme: Scheme, seed: int) -> Stream:
 
 
 def four_sides(scene: Any) -> Sides:
-    """Of a layer: its plates, of which the upper one may slide."""
+    """The four sides of a scene; a layer has periodic sides, and plates of which the upper one may slide."""
     layer = Sides(Periodic(), Periodic(), Plate(T=scene.T_hot), Sliding(scene.slide, T=scene.T_cold))
     return scene.sides if isinstance(scene.sides, Sides) else layer
 
 
 def between_sides(box: tuple[float, float], closed: tuple[bool, bool], place: Callable, size: float,
                   seed: int) -> tuple[np.ndarray, Rows]:
-    """Points (n, 2) in disorder between rows of points on closed sides, and which these are."""
+    """Disordered points (n, 2), with rows of points on closed sides in place of one inner row; these rows."""
     room = box[0] - closed[0], box[1] - closed[1]
     x = place(*room, size, seed)
     for axis in (axis for axis in (0, 1) if closed[axis]):
@@ -163,7 +164,7 @@ def between_sides(box: tuple[float, float], closed: tuple[bool, bool], place: Ca
 
 
 def bodies_of(sides: Sides, rows: Rows) -> list[Held]:
-    """Lower and upper row first, then left and right, then corners; heat is that of a spacing."""
+    """Held rows lower, upper, left, right, then corners; each point gets the heat of a spacing."""
     level, upright = np.eye(2)
     made = [held(which, tuple(getattr(side, "v", 0.0)*along), side.T, side.q)
             for side, which, along in ((sides.bottom, rows.bottom, level), (sides.top, rows.top, level),
@@ -174,7 +175,7 @@ def bodies_of(sides: Sides, rows: Rows) -> list[Held]:
 
 
 def in_corner(one: Any, other: Any, corner: int) -> Held:
-    """At rest, with the temperature of the sides that have one, or the heat of half of a spacing of both."""
+    """Corner at rest: mean temperature of the sides that have one, or the heat of half a spacing of each."""
     T = [side.T for side in (one, other) if warm(side)]
     return held(np.array([corner]), T=float(np.mean(T)) if T else np.nan, heat=(one.q + other.q)/2)
 
@@ -185,7 +186,7 @@ def heat_in(sums: LayerSums, state: np.ndarray, plate: int) -> float:
 
 
 def heat_of_rows(sums: Any, state: np.ndarray, plate: int) -> float:
-    """The same where rows of points are the plate; on a torus, which has no rows, as above."""
+    """`heat_in` of plates that are rows of held points; on a torus, which has no such rows, as above."""
     if not isinstance(sums, Streaming):
         return heat_in(sums, state, plate)
     sums.rates(state, np.empty_like(state))
@@ -193,7 +194,7 @@ def heat_of_rows(sums: Any, state: np.ndarray, plate: int) -> float:
 
 
 def on_plate(held: Held, plate: int) -> np.ndarray:
-    """Points of lower or upper plate (0, 1) as `bodies_of` numbers them, and corners that it alone heats."""
+    """Mask of held points on the lower or upper plate (0, 1), and of its corners that it alone heats."""
     ends = (held.body >= 4 + 2*plate) & (held.body < 6 + 2*plate)
     at = held.body == plate
     return at | ends & np.isin(held.T, held.T[at])

@@ -1,4 +1,4 @@
-"""The compressible grid in time, in any scene."""
+"""The compressible grid as a method of the particles' time loop, in any scene."""
 from dataclasses import dataclass, replace
 from typing import Any, ClassVar, NamedTuple
 
@@ -18,7 +18,7 @@ from studies.build.setting import Ready, stepped
 
 
 class InBlocks:
-    """Steps of RK4 as the grid's own loop takes them; a state (4, n) is a block, flat."""
+    """RK4 steps by the grid's own loop; a state (4, n) is a flattened block."""
 
     def __init__(self, shape: tuple[int, ...], threads: Threads):
         self.march: March | None = None
@@ -33,26 +33,26 @@ class InBlocks:
 
 
 class GridSums(Sums):
-    """What the time loop asks of the grid besides its steps."""
+    """Interface of the grid to the time loop, besides its steps."""
     method: "Gridded"
 
     def __init__(self, method: "Gridded"):
         self.method = method
 
     def try_out(self, now: Any) -> None:
-        """No step: loads the code, fills the ghosts of a copy."""
+        """Load the compiled code without a step; it fills the ghosts of a copy."""
         self.method.march(self.method.block(now.state))
 
     def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
-        """The first node outside of the equation of state; empty if there is none."""
+        """Message on the first node whose state is not valid; empty if there is none."""
         return first_fault(self.method.scene, self.method.block(state))
 
 
 @dataclass(frozen=True, kw_only=True)
 class Gridded:
-    """The gas in square cells, `rows` over the height; states are blocks (4, rows + 2, columns + 2).
+    """The gas on square cells, `rows` over the height; states are blocks (4, rows + 2, columns + 2).
 
-    In the time loop of particles a state is such a block in the shape (4, n).
+    In the time loop of particles a state is such a block, flattened to (4, n).
     """
     scene: Any
     rows: int
@@ -66,25 +66,25 @@ class Gridded:
         return self.scene.eos
 
     def start(self, n: int, threads: Threads) -> GridSums:
-        """What `particles.run` steps; it computes on one core, whatever the threads."""
+        """The sums that `particles.run` steps; they use one core, whatever `threads` is."""
         return GridSums(self)
 
     def block(self, state: np.ndarray) -> np.ndarray:
-        """A state in the shape of a block."""
+        """A state (4, n) in the shape of a block."""
         return state.reshape(4, self.rows + 2, -1)
 
     def march(self, S: np.ndarray, dt: float = 1.0) -> March:
-        """A copy of a state that can be moved on."""
+        """A time march with steps dt that starts from a copy of a block."""
         return March(self.scene, S.copy(), self.continuity, dt)
 
     def go(self, S: np.ndarray, dt: float, steps: int) -> np.ndarray:
-        """The state so many steps later."""
+        """The block after a number of steps."""
         march = self.march(S, dt)
         march.go(steps)
         return march.S
 
     def fields(self, S: np.ndarray) -> Fields:
-        """At the nodes, each place once."""
+        """Fields at the nodes, each node once."""
         return at_nodes(unblock(self.scene, self.block(S)))
 
 
@@ -94,9 +94,10 @@ def _(method: Gridded, start: np.ndarray) -> float:
 
 
 class GridForm(NamedTuple):
-    """One way to solve the gas on a grid. rolls : of the start; None: as the scene has it.
+    """One way to solve the gas on a grid.
 
-    aside : rolls of a hundredth of their energy besides: the flow can leave the symmetry of its start.
+    rolls : their number at the start, None for the scene's own. aside : number of further rolls with a
+    hundredth of the energy, so that the flow can leave its symmetry. step : time step over its limit.
     """
     name: str
     continuity: Any = FluxForm()
@@ -105,17 +106,17 @@ class GridForm(NamedTuple):
     step: float = SAFETY
 
     def refuses(self, scene: Any) -> str:
-        """Nothing: the grid knows all sides."""
+        """Always empty: the grid can have sides of all kinds."""
         return ""
 
     def ready(self, scene: Any, seed: int = 1, rows: int = 0, first: np.ndarray | None = None) -> Ready:
-        """The grid in a scene, cells of one spacing unless `rows` are given; from a block, if given."""
+        """The grid in a scene, in cells of unit size unless `rows` is given; first : block of the start."""
         method = Gridded(scene=scene, rows=rows or round(scene.L), continuity=self.continuity)
         first = begun(scene, method.rows, self) if first is None else first
         return stepped(method, method.march(first).S, self.step)
 
 
-#: "fig10" is a scene of its own temperatures, told apart from others by this name only
+#: "fig10" is for the temperatures of Fig. 10, which tables have in no column: only this name tells them
 FORMS = {form.name: form for form in (
     GridForm("flux-form"),
     GridForm("paper-form", PaperForm()),
@@ -125,7 +126,7 @@ FORMS = {form.name: form for form in (
 
 
 def begun(scene: Any, rows: int, form: GridForm) -> np.ndarray:
-    """The block of the start; a plate slides where its nodes, which never change, have a velocity."""
+    """The block at the start; nodes of a sliding plate get its velocity, which steps do not change."""
     S = block(beginning(scene, rows, form))
     if scene.slide:
         S[VX, -1] = scene.slide
@@ -133,7 +134,7 @@ def begun(scene: Any, rows: int, form: GridForm) -> np.ndarray:
 
 
 def beginning(scene: Any, rows: int, form: GridForm) -> NodeFields:
-    """As the scene has it; of convection rolls of Sec. VI, and those aside    [KHP95]"""
+    """Fields at the start: the scene's own; in convection the rolls of Sec. VI and those aside    [KHP95]"""
     if not isinstance(scene, RayleighBenard):
         return placed(scene, rows, lambda x, y: started(scene, x, y))
     fields = initial(scene, rows, START_ENERGY, form.rolls)
@@ -144,6 +145,6 @@ def beginning(scene: Any, rows: int, form: GridForm) -> NodeFields:
 
 
 def started(scene: Any, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, ...]:
-    """(rho, u, v, T) of a scene at places x, y of any shape."""
+    """(rho, u, v, T) at the start of a scene at places x, y of any shape."""
     rho, v, T = scene.fields(np.stack([x.ravel(), y.ravel()], axis=1))
     return tuple(q.reshape(x.shape) for q in (rho, *v.T, T))

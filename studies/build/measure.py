@@ -1,6 +1,6 @@
-"""A run in the layer heated from below, of any method, and what is measured there.
+"""Run any method in the layer heated from below, and measure its flow.
 
-The symmetric part of a flow is told from noise, the grid's field is seen through a weight.
+Separates the symmetric part of a flow from noise, and smooths the grid's field with a weight.
 """
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -21,13 +21,13 @@ from particles.weights import value_and_slope
 from studies.build.setting import Ready
 from studies.kit.stats import Measured
 
-FINE = 240     # places over the height that a weight is seen with: the range of 100 rows covers 7
-RANGE = 3.0     # of the printed weights, in spacings
+FINE = 240     # places over the height where fields are smoothed: a range at 100 rows covers 7
+RANGE = 3.0     # range of the printed weights, in spacings
 Fields = dict[str, np.ndarray]
 
 
 class Ended(NamedTuple):
-    """K per mass and Nu at the end of a run; errors are what its last tenth changed."""
+    """K per mass and Nu at the end of a run; errors are the changes over its last tenth."""
     ke: float
     ke_err: float
     nu: float
@@ -38,9 +38,9 @@ class Ended(NamedTuple):
 def followed(scene: Any, variant: Any, seed: int, t_end: float, often: int,
              report: Any = None, checkpoint: Path | None = None,
              **more: Any) -> tuple[Ready, int, Run | None]:
-    """(start, steps, end) of a run until t_end in free-fall times; no end if it diverged.
+    """(setup, steps, run) of a run until t_end, in free-fall times; if it diverged: the step where, and None.
 
-    `variant.series` is read `often` times in one. more : of a `Plan`.
+    `variant.series` is recorded `often` times per free-fall time. more : further arguments of `Plan`.
     """
     ready, unit = variant.ready(scene, seed), scene.L/scene.free_fall
     plan = Plan(dt=ready.dt, steps=round(t_end*unit/ready.dt), series=variant.series,
@@ -52,12 +52,12 @@ def followed(scene: Any, variant: Any, seed: int, t_end: float, often: int,
 
 
 def heat_at_rest(scene: Any) -> float:
-    """Conducted through a plate: the unit of Nu."""
+    """Heat per time conducted through a plate at rest: the unit of Nu."""
     return scene.k*scene.dT/scene.L*scene.width
 
 
 def ended(scene: Any, done: Run) -> Ended:
-    """From series ke, and heat through the lower and upper plate."""
+    """From series ke, lower, upper; the error of Nu includes the difference of heat between the plates."""
     ke, lower, upper = (np.array(done.series[name]) for name in ("ke", "lower", "upper"))
     unit, late = heat_at_rest(scene), slice(-max(2, len(ke)//10), None)
     nu, err = (lower - upper)/2/unit, float(np.ptp(ke[late]))
@@ -66,7 +66,7 @@ def ended(scene: Any, done: Run) -> Ended:
 
 
 def rolls(scene: Any, x: np.ndarray, vy: np.ndarray) -> int:
-    """Twice the strongest harmonic of vy (n,) along x (n, 2) at mid-height; 0 at rest."""
+    """Number of rolls: twice the strongest harmonic along x of vy (n,) at mid-height, x (n, 2); 0 at rest."""
     middle = np.abs(x[:, 1]) < scene.L/8
     vy = vy[middle]
     if np.abs(vy).max() < 1e-4*scene.free_fall:
@@ -76,7 +76,7 @@ def rolls(scene: Any, x: np.ndarray, vy: np.ndarray) -> int:
 
 
 def turns(scene: Any, vy: np.ndarray) -> int:
-    """Changes of sign of a mean vy (rows, columns) along mid-height, above a fifth of its largest value."""
+    """Number of rolls: changes of sign of mean vy (rows, columns) along mid-height where |vy| > max/5."""
     mid = vy[len(vy)//2 - 1:len(vy)//2 + 1].mean(axis=0)
     if np.abs(mid).max() < 5e-3*scene.free_fall:
         return 0
@@ -85,7 +85,7 @@ def turns(scene: Any, vy: np.ndarray) -> int:
 
 
 def at_end(method: Any, done: Run) -> tuple[Any, np.ndarray]:
-    """(sums, state) of smooth particles: the last state in the order of new lists, with densities."""
+    """(sums, state) of smooth particles at the end, in the order of new neighbour lists, with densities."""
     sums, state = method.start(done.state.shape[1], Threads(1)), done.state.copy()
     sums.around.relist(state, done.ids.copy(), 0.0)
     sums.densities(state)
@@ -93,7 +93,7 @@ def at_end(method: Any, done: Run) -> tuple[Any, np.ndarray]:
 
 
 def upright(at: Fields) -> Fields:
-    """The same periodic flow with the crest of the first harmonic of vy at column 0."""
+    """A periodic flow, shifted along x so that the first harmonic of vy has its crest at column 0."""
     columns = at["vy"].shape[1]
     shift = np.angle(np.fft.rfft(at["vy"].mean(axis=0))[1])
     turn = np.exp(-1j*shift*np.arange(columns//2 + 1))
@@ -101,20 +101,20 @@ def upright(at: Fields) -> Fields:
 
 
 def mirrored(at: Fields) -> Fields:
-    """The flow seen in a mirror at column 0, which does not change two equal rolls."""
+    """The flow reflected at column 0; two equal rolls stay the same."""
     return {name: (-1 if name == "vx" else 1)*np.roll(f[:, ::-1], 1, axis=1) for name, f in at.items()}
 
 
 def turned(at: Fields) -> Fields:
-    """The flow turned by half a circle, which does not change one roll in a box; density stays."""
+    """The flow rotated by half a turn; one roll in a box stays the same. The density is not rotated."""
     return {name: -f[::-1, ::-1] if name in ("vx", "vy") else f for name, f in at.items()}
 
 
 def flowing(at: Fields, periodic: bool) -> Measured:
-    """Kinetic energy per mass of mean velocities (rows, columns): the part that rolls have by symmetry.
+    """Kinetic energy per mass of the symmetric part of mean velocities (rows, columns): that of rolls.
 
-    All that is not symmetric is in the error: noise, of which the symmetric part holds as much, and in a box
-    what compressibility does. If rolls wander while velocities are averaged, it is a lower bound.
+    The error is the energy of the antisymmetric part: noise, of which the symmetric part has as much, and in
+    a box effects of compressibility. If rolls drift during the average, the value is a lower bound.
     """
     if periodic:
         at = upright(at)
@@ -123,7 +123,7 @@ def flowing(at: Fields, periodic: bool) -> Measured:
 
 
 def kinetic(at: Fields, other: Fields, sign: int) -> float:
-    """Of half the sum, or difference, of two flows of the first one's density, per mass."""
+    """Kinetic energy per mass of half the sum (sign 1) or difference (-1) of flows, at density of `at`."""
     v2 = sum(((at[name] + sign*other[name])/2)**2 for name in ("vx", "vy"))
     return 0.5*float(np.mean(at["rho"]*v2))/float(np.mean(at["rho"]))
 
@@ -136,9 +136,9 @@ class Smoothing(NamedTuple):
 
 
 def smoothed_energy(fields: gas.NodeFields, smoothing: Smoothing) -> tuple[float, float]:
-    """(K, K of <v> = sum m v w/sum m w) of a field, particles lying as densely as the fluid does.
+    """(K, K of <v> = sum m v w/sum m w) of a field, with particles as dense as the fluid.
 
-    Behind walls the density is mirrored, the velocity zero, as for printed images    [KHP95, Fig. 3]
+    Behind walls the density is mirrored and the velocity zero, as of the printed images    [KHP95, Fig. 3]
     """
     width, L = fields.scene.width, fields.scene.L
     columns = round(FINE*width/L)
@@ -154,14 +154,14 @@ def smoothed_energy(fields: gas.NodeFields, smoothing: Smoothing) -> tuple[float
 
 
 def kernel(smoothing: Smoothing) -> np.ndarray:
-    """The weight on the fine places, (2n + 1, 2n + 1)."""
+    """Values of the weight on places L/FINE apart, (2n + 1, 2n + 1)."""
     weight, finer = smoothing.weight.of(smoothing.h), smoothing.rows/FINE
     n = np.arange(-int(smoothing.h/finer), int(smoothing.h/finer) + 1)*finer
     return np.array([[value_and_slope(weight, float(np.hypot(a, b)))[0] for a in n] for b in n])
 
 
 def padded(q: np.ndarray, margin: int, along: str, across: str) -> np.ndarray:
-    """A field with `margin` more places beyond the sides and beyond the plates."""
+    """A field with `margin` more places beyond sides and plates; along, across : modes of `np.pad`."""
     wide = np.pad(q, ((0, 0), (margin, margin)), along)  # type: ignore[call-overload]
     return np.pad(wide, ((margin, margin), (0, 0)), across)  # type: ignore[call-overload]
 
@@ -184,28 +184,28 @@ class Snapshot:
 
     @cached_property
     def tree(self) -> cKDTree:
-        """Of all points."""
+        """Search tree of all points."""
         return cKDTree(self.x)
 
     @cached_property
     def bulk(self) -> np.ndarray:
-        """Fluid particles farther than the range of the weight from the plates."""
+        """Indices of fluid particles farther from the plates than the range of the weight."""
         return np.flatnonzero(np.abs(self.x[:self.n, 1]) < self.height/2 - RANGE)
 
     def near(self, distance: float) -> np.ndarray:
-        """How many others are that close to each particle of the bulk."""
+        """Number of other points within a distance of each bulk particle."""
         return self.tree.query_ball_point(self.x[self.bulk], distance, return_length=True) - 1
 
     @property
     def neighbours(self) -> Measured:
-        """Mean number within the range; counts of particles that share neighbours are one sample."""
+        """Mean number of neighbours within the range; particles that share neighbours count as one sample."""
         counts = self.near(RANGE)
         samples = max(1.0, len(counts)/counts.mean())
         return Measured(float(counts.mean()), float(1.96*counts.std()/sqrt(samples)))
 
     @property
     def spacing(self) -> Measured:
-        """Distance where the first peak of the pair distribution is, by bins of 0.1."""
+        """Distance of the highest peak of the pair distribution below 2, in bins of 0.1."""
         edges = np.arange(0.3, 2.01, 0.1)
         bulk = cKDTree(self.x[self.bulk])
         pairs = bulk.sparse_distance_matrix(self.tree, 2.0, output_type="ndarray")
@@ -215,7 +215,7 @@ class Snapshot:
 
     @property
     def pairing(self) -> Measured:
-        """Median of second over first neighbour distance; partners of a pair are one sample."""
+        """Median of second over first neighbour distance; both particles of a pair count as one sample."""
         distances, _ = self.tree.query(self.x[self.bulk], 3)
         _, first, second = np.transpose(distances)
         around = 0.98/sqrt(len(first)/2)*np.array([-1, 0, 1])
@@ -224,10 +224,10 @@ class Snapshot:
 
     @property
     def occupancy(self) -> float:
-        """Particles a site: bulk particles joined with those closer than half a spacing."""
+        """Particles per site: 1 + median number of others within half a spacing of a bulk particle."""
         return 1 + float(np.median(self.near(0.5)))
 
     @property
     def fastest(self) -> float:
-        """The largest v^2 of the fluid."""
+        """Largest v^2 of the fluid particles."""
         return float((self.v[:self.n]**2).sum(axis=1).max())

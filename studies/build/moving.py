@@ -1,4 +1,4 @@
-"""Points that move, in any scene: with their triangulation, over closed faces, in RR98's own ways
+"""Methods on moving points, in any scene: with their triangulation, over closed faces, by RR98's motions
 
     [RR98 Eqs 39, 46-51]
 """
@@ -40,7 +40,7 @@ from studies.build.setting import (
 
 
 class FacesMotion(NamedTuple):
-    """The scheme of closed faces with its ingredients."""
+    """The scheme of closed faces with its ingredients; of_limit : time step over its limit."""
     name: str
     ingredients: Ingredients = Ingredients()
     weight: Any = WendlandC2
@@ -76,7 +76,7 @@ MOTIONS = {m.name: m for m in (
 
 
 class DriftMotion(NamedTuple):
-    """A motion of RR98, as printed but for what is named; `less` : share of the static pressure left out."""
+    """A motion of RR98. mended : friction heats like the stress. less : share of static pressure left out."""
     name: str
     motion: Any
     mended: bool = True
@@ -115,17 +115,17 @@ DRIFT_MOTIONS = {m.name: m for m in (
 
 @cache
 def scale(weight: Any) -> float:
-    """Of plain quadrature, so that gradients are right on a lattice of the mean density."""
+    """Factor of plain quadrature that makes gradients right on a lattice of the mean density."""
     return scale_of(lattice((12, 12)), weight)
 
 
 def of_heat(heat: Any) -> dict[str, Any]:
-    """K, and heat per time that enters the fluid through a plate (-1: lower, 1: upper)."""
+    """Series of a run: K, and heat per time into the fluid through both plates; heat : its function."""
     return {"ke": kinetic, "lower": partial(heat, side=-1), "upper": partial(heat, side=1)}
 
 
 def heat_over_faces(sums: FaceSums, state: np.ndarray, side: int) -> float:
-    """Heat over faces to images behind a plate."""
+    """Heat per time that points get over faces from images behind a plate (-1: lower, 1: upper)."""
     faces, half = sums.maker.faces, sums.method.box[1]/2
     row, entry = entries(faces, np.flatnonzero(side*state[1] > half - sums.method.weight.h))
     image = faces.near[entry]
@@ -136,7 +136,7 @@ def heat_over_faces(sums: FaceSums, state: np.ndarray, side: int) -> float:
 
 
 class PairHeat(NamedTuple):
-    """Heat that the first of two points gets from the other."""
+    """Pair term: heat per time that the first point gets from the second."""
 
 
 @pair_term(PairHeat, 1)
@@ -145,25 +145,25 @@ def _(term, a, b, ab):
 
 
 def heat_of_pairs(sums: Drifts, state: np.ndarray, side: int) -> float:
-    """Heat from images behind a plate."""
+    """Heat per time that points get from images behind a plate (-1: lower, 1: upper)."""
     heat = np.zeros((sums.n, 1))
     sums.threads(sweep, sums.n, OverPairs(PairHeat()), sums.points, pairs_behind(sums, side), heat)
     return float(heat.sum())
 
 
 class Carriage(NamedTuple):
-    """The scheme. size : of the disorder of points at the start, in spacings."""
+    """Points that move with their triangulation. size : disorder of the points at the start, in spacings."""
     name: str
     shift: float = SHIFT
     size: float = START_JITTER
     of_limit: float = 0.9
 
     def refuses(self, scene: Any) -> str:
-        """Which part of a scene this cannot take; empty for none."""
+        """The part of a scene that this cannot take; empty if none."""
         return sticking(scene)
 
     def ready(self, scene: Any, seed: int = 1, fields: tuple | None = None) -> Ready:
-        """The method in a scene; from fields (rho, v, T) at its points, if given."""
+        """The method in a scene, from fields (rho, v, T) at its points, if given."""
         check_points(self, scene)
         size, along = (scene.width, scene.L), scene.sides.axes
         closed = not along[0], not along[1]
@@ -175,7 +175,7 @@ class Carriage(NamedTuple):
 
     @property
     def series(self) -> dict[str, Any]:
-        """Quantities of a run: K, heat through both plates, heat that the flow carries."""
+        """Series of a run: K, heat through both plates, heat that the flow carries."""
         return {"ke": kinetic, "lower": partial(heat_in, plate=0), "upper": partial(heat_in, plate=1),
                 "carried": heat_carried}
 
@@ -188,7 +188,7 @@ CARRIAGES = {one.name: one for one in (
 
 
 class StableCarriage(Carriage):
-    """The same with an entropy-stable flux."""
+    """Points that move with their triangulation, with an entropy-stable flux."""
 
     def ready(self, scene: Any, seed: int = 1, fields: tuple | None = None) -> Ready:
         made = super().ready(scene, seed, fields)
@@ -202,7 +202,7 @@ NONE_HELD = Held(np.empty(0, int), np.empty((0, 2)), np.empty(0), np.empty(0, in
 
 
 def held_of(scene: Any, x: np.ndarray, rows: Rows) -> Held:
-    """Points on sides: lower row, upper row, then others."""
+    """Held points on the sides: lower row, upper row, then others; none on a torus."""
     if isinstance(scene.sides, Torus):
         return NONE_HELD
     if not isinstance(scene.sides, Walls):
@@ -218,7 +218,7 @@ def heat_in(sums: RingSums, state: np.ndarray, plate: int) -> float:
 
 
 def heat_carried(sums: RingSums, state: np.ndarray) -> float:
-    """What the flow brings upwards, (E/V + P) v_y - (tau v)_y over the height; conduction is the rest."""
+    """Mean upward heat of the flow, (E/V + P) v_y - (tau v)_y, times the width; conduction comes besides."""
     at, (near, _, sx, sy) = sums.method.fields(state), spokes(sums.rings)
     step = at.v[near] - at.v[:, None]
     (xx, xy), (yx, yy) = ((S[:, :, None]*step).sum(axis=1).T for S in (sx, sy))        # V d_x v, V d_y v

@@ -1,4 +1,4 @@
-"""Two periodic scenes that try a method: a shock tube, and a shear layer that rolls up."""
+"""Two periodic test scenes: a shock tube, and a shear layer that rolls up."""
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -11,16 +11,16 @@ from particles.integral.points import wrapped
 from studies.build.scenes import SOUND, Answer, Scene, Start
 
 GAMMA = 1.4
-JITTER = 0.05       # of particles at the start, in their own spacings: rows of a perfect lattice never mix
+JITTER = 0.05       # displacement at the start, in spacings of the particles: a perfect lattice never mixes
 
 
 @dataclass(frozen=True, kw_only=True)
 class ShockTube(Scene):
-    """Sod's tube beside its mirror image: dense at |x| < half, thin beyond; the shock goes 0.7 half far.
+    """Sod's shock tube and its mirror image: gas dense at |x| < half, thin beyond; shocks travel 0.7 half.
 
     Density and pressure have the ratios 1 to 0.125 and 1 to 0.1, the mean density is 1    [Sod 1978]
-    eta : viscosity and conductivity; the usual one makes the cell number 2 behind the shock, beyond which
-    central differences ring. L : the height, of no moment.
+    eta : viscosity and conductivity; the default makes the cell Reynolds number 2 behind the shock, beyond
+    which central differences oscillate. L : the height, which has no effect.
     """
     half: int
     eta: float = 0.22
@@ -49,13 +49,13 @@ class ShockTube(Scene):
         return rho, np.zeros((len(x), 2)), P/rho
 
     def answer(self, x: np.ndarray) -> Answer:
-        """Without viscosity."""
+        """Exact fields without viscosity."""
         across = np.abs(x[:, 0])
         rho, v, P = solution(self.dense, self.thin, GAMMA, (across - self.half)/self.time)
         return {"rho": rho, "vx": np.sign(x[:, 0])*v, "T": P/rho}
 
     def of_one_mass(self, seed: int) -> tuple[np.ndarray, Start]:
-        """Rows 3/4 of a spacing apart in the dense gas, 2 in the thin one."""
+        """Jittered rows, 3/4 of a spacing apart in the dense gas, 2 spacings in the thin one."""
         rng, parts = np.random.default_rng(seed), []
         for gas, rows, left in ((self.dense, 16, -self.half), (self.thin, 6, self.half)):
             columns = round(2*self.half*self.L*gas.rho/rows)
@@ -68,16 +68,16 @@ class ShockTube(Scene):
 
 @dataclass(frozen=True, kw_only=True)
 class ShearLayer(Scene):
-    """u = U sin ky without friction, and its fastest wave, twice as long, of a hundredth of U.
+    """Shear u = U sin ky without friction, and its fastest growing wave, twice as long, of amplitude U/100.
 
-    The gas conducts heat, so that points which drift do not end at once. The rate is that of a fluid of
-    constant density: times are in units of it, so that the growth is 1 but for the square of the Mach
-    number    [Rayleigh 1880]
+    The gas conducts heat: without it runs with drifting points fail at once. The unit of time is 1/rate of a
+    fluid of constant density, so that the growth rate is 1, up to the square of the Mach number
+    [Rayleigh 1880]
     """
     L: int
     mach: float = 0.1
     size: float = 0.01
-    growths: float = 3.0        # of the run, in 1/rate
+    growths: float = 3.0        # length of the run, in 1/rate
 
     @property
     def width(self) -> int:  # type: ignore[override]
@@ -114,6 +114,6 @@ class ShearLayer(Scene):
         return {"wave": self.wave}
 
     def wave(self, at: Fields) -> float:
-        """Size of the part of v_y that goes as exp(i k_x x)."""
+        """Amplitude of the component exp(i k_x x) of v_y, weighted by mass."""
         m = at.rho*at.V
         return float(abs(np.sum(m*at.v[:, 1]*np.exp(-1j*np.pi/self.L*at.x[:, 0])))/m.sum())

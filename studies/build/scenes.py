@@ -1,7 +1,7 @@
-"""Flows with exact answers, as scenes; convection is `continuum.scene.RayleighBenard`.
+"""Scenes of flows with exact solutions; convection is `continuum.scene.RayleighBenard`.
 
 Lengths in spacings; the gas is ideal with C_V = 1, density and temperature about 1, conductivity = viscosity.
-What they are asked for besides their start is in `studies.build.answers`.
+`studies.build.answers` reads their properties besides the start.
 """
 from dataclasses import dataclass
 from math import sqrt
@@ -29,7 +29,7 @@ Answer = dict[str, np.ndarray]
 
 
 class Scene:
-    """A gas at rest without gravity, periodic along both axes: what other scenes leave as it is."""
+    """Base of scenes: a gas at rest without gravity, periodic along both axes."""
     eos: Any = IdealGas()
     sides: Any = Torus()
     slide = 0.0
@@ -44,13 +44,13 @@ class Scene:
         return self.width/self.L
 
     def fields(self, x: np.ndarray) -> Start:
-        """Density (n,), velocity (n, 2), temperature (n,) at the start, at places (n, 2)."""
+        """Density (n,), velocity (n, 2), temperature (n,) at the start, at positions x (n, 2)."""
         return np.ones(len(x)), np.zeros((len(x), 2)), np.ones(len(x))
 
 
 @dataclass(frozen=True, kw_only=True)
 class Tile(Scene):
-    """A box of any size, its fluid, and its transport law with its numbers."""
+    """A gas at rest in a periodic box of any size, with any equation of state and transport law."""
     width: float
     L: float
     law: Any
@@ -59,7 +59,7 @@ class Tile(Scene):
 
 @dataclass(frozen=True, kw_only=True)
 class TaylorGreen(Scene):
-    """A vortex of a Mach number that decays by e in a periodic box of L spacings, one wavelength."""
+    """A Taylor-Green vortex in a periodic box of L spacings, one wavelength; it decays by a factor e."""
     L: int
     mach: float = 0.05
 
@@ -85,7 +85,7 @@ class TaylorGreen(Scene):
 
     @property
     def time(self) -> float:
-        """When velocities of an incompressible fluid are a factor e smaller."""
+        """Time at which velocities of an incompressible fluid are a factor e smaller."""
         return self.vortex.time
 
     def fields(self, x: np.ndarray) -> Start:
@@ -103,12 +103,12 @@ class TaylorGreen(Scene):
 
 @dataclass(frozen=True, kw_only=True)
 class Sound(Scene):
-    """A standing wave of one wavelength along x, at rest at first; exact for small amplitudes."""
-    L: int = 8              # across: wider than twice a range of three
+    """A standing sound wave of one wavelength along x, at rest at first; exact for small amplitudes."""
+    L: int = 8              # height: more than twice a range of three
     width: int
-    amplitude: float = 1e-5      # steepening, some 12 times this, is 1e-4 of the wave
+    amplitude: float = 1e-5      # steepening, about 12 times this, is 1e-4 of the wave
     damping: float = 0.01       # eta = kappa, in wavelengths: a third of the wave is left at the end
-    periods: float = 2.125      # and an eighth: density and velocity are both there
+    periods: float = 2.125      # two and an eighth: neither density nor velocity is zero
 
     counted = "width"
 
@@ -125,7 +125,7 @@ class Sound(Scene):
         return self.periods*self.width/np.sqrt(2)
 
     def exactly(self, time: float, x: np.ndarray) -> np.ndarray:
-        """(rho, u, T), each (n,), less their means, at x (n,)."""
+        """Exact deviations of (rho, u, T), each (n,), from their means, at x (n,)."""
         matrix = continuum(LinearGas(self.law.eta, 0.0, self.law.k), self.k).matrix
         return self.amplitude*np.real(np.outer(expm(matrix*time)@np.array([1, 0, 1]), np.exp(1j*self.k*x)))
 
@@ -138,7 +138,7 @@ class Sound(Scene):
         return {"vx": u, "T": 1 + T}
 
     def of_one_mass(self, seed: int) -> tuple[np.ndarray, Start]:
-        """A lattice, displaced as the density wants it, with the fields of the lattice."""
+        """A lattice displaced to give equal masses the density of the wave, with fields at its sites."""
         x = lattice((self.width, self.L)).x
         fields = self.fields(x)
         x[:, 0] -= self.amplitude/self.k*np.sin(self.k*x[:, 0])
@@ -147,7 +147,7 @@ class Sound(Scene):
 
 @dataclass(frozen=True, kw_only=True)
 class BetweenPlates(Scene):
-    """Heat that spreads or shear that settles between plates of temperature 1, L rows apart."""
+    """Conduction of heat, or Couette flow that sets in, between plates of temperature 1, L rows apart."""
     flow: PlateFlow
     L: int
     width: int = 8          # wider than twice a range of three
@@ -159,7 +159,7 @@ class BetweenPlates(Scene):
 
     @property
     def law(self) -> ConstEta:
-        """The same fluid at every resolution: heights are so many spacings."""
+        """The same fluid at every resolution: coefficients grow with the height L in spacings."""
         return ConstEta(MU*self.L, MU*self.L)
 
     @property
@@ -180,14 +180,14 @@ class BetweenPlates(Scene):
 
 
 def as_dense(x: np.ndarray, L: float, rho: np.ndarray) -> np.ndarray:
-    """Places (n, 2) moved up or down, so that rows are as far apart as a density at HEIGHTS wants them."""
+    """Positions (n, 2) moved along y so that equal masses have a density rho, given at HEIGHTS."""
     mass, below = cumulative_trapezoid(rho, HEIGHTS, initial=0), x[:, 1]/L + 0.5
     return np.stack([x[:, 0], L*(np.interp(below*mass[-1], mass, HEIGHTS) - 0.5)], axis=1)
 
 
 @dataclass(frozen=True, kw_only=True)
 class Slab(RayleighBenard):
-    """A layer of L rows at rest between plates all but equally warm; `ra`, `pr` say nothing."""
+    """A layer of L rows at rest between plates of almost equal temperature; `ra`, `pr` mean nothing."""
     viscosity: float
     heat: float
     ra: float = 1.0
@@ -196,12 +196,12 @@ class Slab(RayleighBenard):
 
     @property
     def nu(self) -> float:
-        """Of density 1, as given."""
+        """Kinematic viscosity at density 1, as given."""
         return max(self.viscosity, TINY)
 
     @property
     def kappa(self) -> float:
-        """k/(rho C_V), as given."""
+        """Thermal diffusivity k/(rho C_V), as given."""
         return max(self.heat/float(self.eos.cv), TINY)
 
 

@@ -1,4 +1,4 @@
-"""A method set up in a scene, and how: what all families of methods share.
+"""Set up a method in a scene: code that all families of methods share.
 
 A scene has `width, L` (in spacings), `sides` (`Periodic`, `Walls`, `Torus`), the plates' `T_hot, T_cold`, the
 velocity `slide` of the upper one, gravity `g`, the fluid `eos, law`, and `fields(x) -> rho, v, T`, its start.
@@ -20,13 +20,13 @@ from particles.walls.periodic import periodic
 from particles.weights import WendlandC2
 from studies.build.names import START_JITTER
 
-FROM_EDGE = 0.25        # of a spacing: jittered points come no nearer to a plate with images
+FROM_EDGE = 0.25        # spacings: least distance of jittered points from a plate with images
 BREADTH = 16        # spacings across a wave
-APART = 0.5         # of random points, in spacings
+APART = 0.5         # least distance of random points, in spacings
 
 
 class Ready(NamedTuple):
-    """A method, its state at the start (rows, n), and a step that is good for it, for `particles.run`."""
+    """A method, its start state (rows, n) and a suitable time step, for `particles.run`."""
     method: Any
     start: np.ndarray
     dt: float
@@ -38,12 +38,12 @@ class Ready(NamedTuple):
 
 
 def stepped(method: Any, start: np.ndarray, of_limit: float) -> Ready:
-    """With a step that is a fraction of the stability limit."""
+    """A method and its start with a time step that is a fraction of the stability limit."""
     return Ready(method, start, of_limit*limit_of(method, start))
 
 
 def of_method(method: Any, scene: Any, seed: int = 1) -> Ready:
-    """Any method with places `x` and `state(rho, v, T)`, or `state(x, rho, v, T)` from a jittered lattice."""
+    """Any method in a scene: with points `x` and `state(rho, v, T)`, or with `state(x, rho, v, T)`."""
     if not hasattr(method, "x"):
         return placed(method, scene, seed, 0.8)
     check_places(method.x, scene)
@@ -51,13 +51,13 @@ def of_method(method: Any, scene: Any, seed: int = 1) -> Ready:
 
 
 def placed(method: Any, scene: Any, seed: int, of_limit: float, x: Any = None, fields: Any = None) -> Ready:
-    """Points that move, from places x (n, 2) and fields (rho, v, T) there; by default a jittered lattice."""
+    """A method on points that start at x (n, 2) with fields (rho, v, T); by default a jittered lattice."""
     x = shaken(scene, seed) if x is None else x
     return stepped(method, method.state(x, *(fields or scene.fields(x))), of_limit)
 
 
 def check_places(x: np.ndarray, scene: Any) -> None:
-    """Refuse points that were made for another box. Raises ValueError."""
+    """Check that points x (n, 2) were made for the box of the scene. Raises ValueError."""
     box, reach = np.array([scene.width, scene.L]), 2*np.abs(x).max(axis=0)
     if (reach > box*(1 + 1e-9)).any() or (reach < box - 3).any():
         raise ValueError(f"points of the method reach {reach[0]:g} x {reach[1]:g}, the scene is {box[0]:g} x "
@@ -66,7 +66,7 @@ def check_places(x: np.ndarray, scene: Any) -> None:
 
 
 def walls(scene: Any, rule: Any = AtWall(), pressure: Any = Copied()) -> tuple:  # noqa: B008
-    """Mirror images behind the plates; periodic sides or images there too; a torus has no plates."""
+    """Walls of a scene: images behind plates, periodic sides or images there; a torus is all periodic."""
     if isinstance(scene.sides, Sides):
         return of_sides(scene, rule, pressure)
     if isinstance(scene.sides, Torus):
@@ -79,7 +79,7 @@ def walls(scene: Any, rule: Any = AtWall(), pressure: Any = Copied()) -> tuple: 
 
 
 def of_sides(scene: Any, rule: Any, pressure: Any) -> tuple:
-    """Mirror images behind four sides, each as its kind wants them."""
+    """Walls of a scene with four sides: periodic ones, and mirror images by the kind of each side."""
     left, right, bottom, top = scene.sides
     k = float(conductivity(scene.law, 1.0, scene.T_mean))
     made: list[Any] = []
@@ -94,34 +94,31 @@ def of_sides(scene: Any, rule: Any, pressure: Any) -> tuple:
 
 
 def shifted(width: float, height: float, size: float, seed: int) -> np.ndarray:
-    """Points (n, 2) of unit spacing in a periodic box: a lattice, coordinates shifted by up to `size`."""
+    """A jittered lattice (n, 2) of unit spacing in a periodic box: coordinates shifted by up to `size`."""
     x = lattice((round(width), round(height))).x
     return wrapped(x + np.random.default_rng(seed).uniform(-size, size, x.shape), np.array([width, height]))
 
 
 def inside(height: float, x: np.ndarray, axis: int = 1) -> np.ndarray:
-    """Points too near to the edge of their room, `height` along an axis, moved away from it."""
+    """Points (n, 2), moved inwards where nearer than FROM_EDGE to the ends of a `height` along an axis."""
     moved = x.copy()
     moved[:, axis] = np.clip(x[:, axis], -height/2 + FROM_EDGE, height/2 - FROM_EDGE)
     return moved
 
 
 def positions(width: float, height: float, size: float, seed: int) -> np.ndarray:
-    """The same between plates: no point is too near to one."""
+    """A jittered lattice (n, 2) between plates: no point is nearer to one than FROM_EDGE."""
     return inside(height, shifted(width, height, size, seed))
 
 
 def shaken(scene: Any, seed: int) -> np.ndarray:
-    """Where points that move start."""
+    """Start positions (n, 2) of moving points: a jittered lattice."""
     place = shifted if isinstance(scene.sides, Torus) else positions
     return place(scene.width, scene.L, START_JITTER, seed)
 
 
 def check_spacings(scene: Any) -> None:
-    """Refuse a box that whole columns and rows of points of unit spacing do not fill.
-
-    Raises ValueError: Height or width is no whole number.
-    """
+    """Check that whole rows and columns of unit spacing fill the box. Raises ValueError: they do not."""
     for name, length in (("height L", scene.L), ("width aspect L", scene.width)):
         if not isclose(length, max(1, round(length)), rel_tol=1e-9):
             raise ValueError(f"points of unit spacing need whole rows and columns, got {name} = "
@@ -129,24 +126,24 @@ def check_spacings(scene: Any) -> None:
 
 
 class CannotTake(ValueError):
-    """The part of a scene that a method cannot take; `studies.build.ready` adds its name and who can."""
+    """Names the part of a scene that a method cannot take; `studies.build.ready` adds which methods can."""
 
 
 def check_taken(chosen: Any, scene: Any) -> None:
-    """Refuse a scene for a variant. Raises CannotTake: names the part."""
+    """Check that a variant can take a scene. Raises CannotTake with the part that it cannot take."""
     if part := chosen.refuses(scene):
         raise CannotTake(part)
 
 
 def check_points(chosen: Any, scene: Any) -> None:
-    """The same for points of unit spacing, which must fill it."""
+    """`check_taken` for points of unit spacing, which must fill the box. Raises ValueError: they do not."""
     check_taken(chosen, scene)
     check_spacings(scene)
 
 
 def no_layer(scene: Any) -> str:
-    """What a method lacks that knows plates of given temperatures above and below only, or none; empty if
-    nothing."""
+    """The part of a scene that a method cannot take if it knows only plates of given temperatures above and
+    below, or a torus; empty if none."""
     if isinstance(scene.sides, Walls):
         return f"sides = {scene.sides}"
     if not isinstance(scene.sides, Sides):
@@ -157,15 +154,15 @@ def no_layer(scene: Any) -> str:
 
 
 def no_still_layer(scene: Any) -> str:
-    """The same of a method whose plates do not slide, either."""
+    """`no_layer` of a method whose plates cannot slide, either."""
     return no_layer(scene) or (f"slide = {scene.slide}" if scene.slide else "")
 
 
 def sticking(scene: Any) -> str:
-    """What rows of points on sides cannot take: slip, and in a closed box a side that slides into corners.
+    """The part of a scene that rows of points on sides cannot take: slip, or a sliding side of a closed box.
 
-    The point in a corner may have held neighbours only, and nothing takes away what one of them brings: its
-    density grows by e for each spacing that the side slides. Without it chessboards still grow from there.
+    All neighbours of a corner point may be held: nothing takes away what a sliding one brings, so that the
+    density grows by a factor e per spacing of sliding. Without this a chessboard mode still grows there.
     """
     if not isinstance(scene.sides, Sides):
         return ""
@@ -175,7 +172,7 @@ def sticking(scene: Any) -> str:
 
 
 def part(scene: Any, name: str) -> str:
-    """A side as it is written."""
+    """A side of the scene as text, "name = value"."""
     return f"{name} = {getattr(scene.sides, name)}"
 
 

@@ -30,13 +30,13 @@ from studies.build.names import START_JITTER
 from studies.build.setting import Ready, check_spacings, check_taken, no_still_layer
 from studies.build.setting import walls as around
 
-#: time step over its limit: dt = 0.4 for the printed scheme. Particles turn at a plate up to v dt beyond
-#: it, an error of first order: half of the step raises Nu by 4 % at 16 rows, 0.6 % at 25, 0.2 % at 50.
+#: time step over its limit: dt = 0.4 for the printed scheme. Plates reflect particles up to v dt beyond them,
+#: an error of first order: half of the step raises Nu by 4 % at 16 rows, 0.6 % at 25, 0.2 % at 50.
 OF_LIMIT = 0.22
-#: pairs without P0 let longer steps seem good: that of Adami, Hu & Adams 2013, 0.25 a/c, is 0.4 of OF_LIMIT
+#: further factor where pairs lack P0, which makes the limit too long: 0.25 a/c of Adami, Hu & Adams 2013
 STEPPED = 0.4
 FRICTIONLESS = ConstEta(0.0, 0.0)
-#: walls of a box; how near particles must come to filling it, when their densities are given
+#: number of walls of a box; tolerance of the area that particles of given densities fill
 ENDS, FILLED = 4, 0.1
 
 
@@ -46,17 +46,17 @@ def images(scene: Any) -> tuple:
 
 
 def images_odd(scene: Any) -> tuple:
-    """v -> -v, T -> 2 T_w - T."""
+    """Images with v -> -v, T -> 2 T_w - T, pressure of the particle."""
     return around(scene, Odd())
 
 
 def images_own(scene: Any) -> tuple:
-    """Specified v and T, pressure from the image's own state."""
+    """Images at rest with the plate's temperature, pressure from the image's own state."""
     return around(scene, pressure=Own())
 
 
 def images_odd_own(scene: Any) -> tuple:
-    """v -> -v, T -> 2 T_w - T, pressure from the image's own state."""
+    """Images with v -> -v, T -> 2 T_w - T, pressure from the image's own state."""
     return around(scene, Odd(), Own())
 
 
@@ -69,7 +69,7 @@ WALLS = {one.__name__: one for one in (images, images_odd, images_own, images_od
 
 
 def check_walls(walls: Any) -> None:
-    """Refuse walls that are no function of the scene: TypeError."""
+    """Check that walls are a function of the scene. Raises TypeError."""
     if not callable(walls):
         near = get_close_matches(f"images_{walls}", WALLS, 1) or WALLS
         raise TypeError(f"walls of a variant are a function of the scene, got {walls!r}: give one of "
@@ -77,7 +77,7 @@ def check_walls(walls: Any) -> None:
 
 
 def developed(scene: Any, x: np.ndarray) -> tuple:
-    """(rho, v, T) of the grid's steady flow at x (n, 2), which weak rolls need not lead to."""
+    """(1, v, T) of the grid's steady flow at x (n, 2): a start that weak rolls need not reach."""
     grid = steady_on(scene, (16, 24))[-1].fields
     at = interpolate(grid, x[:, 0], np.clip(x[:, 1], -scene.L/2, scene.L/2))
     return np.ones(len(x)), np.stack([at.vx, at.vy], axis=1), at.T
@@ -86,8 +86,8 @@ def developed(scene: Any, x: np.ndarray) -> tuple:
 class Variant(NamedTuple):
     """One way to build the method; the defaults are the scheme as printed with the walls of Fig. 3.
 
-    weight : a class of `particles.weights`; h : its range. step : over its limit. fraction : of the static
-    pressure that is left out, with the weight of a fluid of density `hydrostatic`.
+    weight : a class of `particles.weights`; h : its range. step : time step over its limit. fraction : share
+    of the static pressure that is left out, and of the gravity on a fluid of density `hydrostatic` with it.
     begin : (scene, x) -> (rho, v, T) at the start; None for the scene's own.
     """
 
@@ -103,7 +103,7 @@ class Variant(NamedTuple):
     begin: Callable | None = None
 
     def refuses(self, scene: Any) -> str:
-        """Which part of a scene this cannot take; empty for none. Images know all sides."""
+        """The part of a scene that this cannot take; empty if none. Images allow all sides."""
         if self.begin is developed and not isinstance(scene, RayleighBenard):
             return f"a {type(scene).__name__}, which has no rolls to begin with"
         return no_still_layer(scene) if self.walls is fixed_rows else ""
@@ -120,7 +120,7 @@ class Variant(NamedTuple):
 
     @property
     def moves(self) -> bool:
-        """Whether images move, so that their pressure works."""
+        """Whether images move, so that their pressure does work."""
         return self.walls in (images_odd, images_odd_own)
 
 
@@ -146,7 +146,7 @@ VARIANTS = {v.name: v for v in (
     Variant("range-4", h=4.0),
     Variant("range-6", h=6.0),
 )}
-#: what people use today: friction and heat along pairs, images whose mean with the particle is the plate's
+#: methods in use today: friction and heat along pairs; the mean of image and particle is the plate's value
 TODAY = {v.name: v._replace(weight=WendlandC2, walls=images_odd) for v in (
     Variant("sph", transport=Direct),
     Variant("sumB", transport=Corrected),
@@ -163,10 +163,10 @@ TODAY = {v.name: v._replace(weight=WendlandC2, walls=images_odd) for v in (
             step=STEPPED*OF_LIMIT),
     Variant("transport-velocity-whole", transport=TransportVelocity),
 )}
-#: densities by continuity do not rise where particles sink to a plate whose images copy P, which has a slope
+#: images copy P, though it has a slope: particles sink to a plate, and densities by continuity do not rise
 TODAY["delta-plus-own-pressure"] = TODAY["delta-plus"]._replace(name="delta-plus-own-pressure",
                                                                 walls=images_odd_own)
-#: what a step that vanishes would leave of a frozen fluid
+#: shorter and shorter steps: does a frozen fluid stay frozen in their limit?
 STEPS = {name: PRINTED._replace(name=name, step=OF_LIMIT/part)
          for name, part in (("printed-quarter-step", 4), ("printed-eighth-step", 8),
                             ("printed-sixteenth-step", 16))}
@@ -174,15 +174,15 @@ JOINT = "-joint"
 
 
 def variant_of(name: str, rows: float) -> Variant:
-    """`-joint` in its name: the range grows as rows^(1/2)    [Zhu, Hernquist & Li 2015]"""
+    """The variant of a name; with `-joint` its range grows as rows^(1/2)    [Zhu, Hernquist & Li 2015]"""
     usual = (VARIANTS | TODAY | STEPS)[name.removesuffix(JOINT)]
     return usual._replace(name=name, h=usual.h*(rows/25)**0.5) if name.endswith(JOINT) else usual
 
 
 def method(scene: Any, variant: Variant) -> Spam:
-    """The method of unit spacing and mass: a scene of L = rows spacings.
+    """The method on particles of unit spacing and mass; the scene has L = rows spacings.
 
-    Raises TypeError: the weight is no class of weights.
+    Raises TypeError: the weight is not a class of weights. ValueError: there are not four walls.
     """
     weight, eos = variant.weight, scene.eos
     if not (isinstance(weight, type) and hasattr(weight, "of")):
@@ -201,13 +201,13 @@ def method(scene: Any, variant: Variant) -> Spam:
 
 @cache
 def step(scene: Any, variant: Variant) -> float:
-    """Time step for all seeds: its fraction of the limit of lattice waves at the plates' temperatures."""
+    """Time step, the same for all seeds: a fraction of the limit of a lattice at the plates' temperatures."""
     plates = np.array([scene.T_cold, scene.T_hot])
     return variant.step*step_limit(method(scene, variant), energy(scene.eos, 1.0, plates))
 
 
 def start(scene: Any, seed: int = 1, begin: Any = None, x: Any = None, fields: Any = None) -> np.ndarray:
-    """State (5, n); `begin` as a variant has it."""
+    """Start state (5, n), before `transport.complete`; begin : as in `Variant`."""
     x = scattered(scene, seed) if x is None else x
     if fields:
         check_mass(scene, fields[0]*np.ones(len(x)))
@@ -216,7 +216,7 @@ def start(scene: Any, seed: int = 1, begin: Any = None, x: Any = None, fields: A
 
 
 def check_mass(scene: Any, rho: np.ndarray) -> None:
-    """Refuse densities that so many particles of unit mass do not have: ValueError."""
+    """Check that particles of unit mass with these densities fill the box. Raises ValueError."""
     filled, room = float(np.sum(1/rho)), scene.width*scene.L
     if not isclose(filled, room, rel_tol=FILLED):
         raise ValueError(f"{len(rho)} particles of unit mass fill {filled:.4g} of a box of {room:.4g} at the "
@@ -224,7 +224,7 @@ def check_mass(scene: Any, rho: np.ndarray) -> None:
 
 
 def scattered(scene: Any, seed: int) -> np.ndarray:
-    """Places (n, 2): a jittered square lattice."""
+    """Positions (n, 2) on a jittered square lattice."""
     check_spacings(scene)
     columns, rows = round(scene.width), round(scene.L)
     x, y = np.meshgrid(np.arange(columns) + 0.5 - scene.width/2, np.arange(rows) + 0.5 - scene.L/2)
@@ -234,7 +234,7 @@ def scattered(scene: Any, seed: int) -> np.ndarray:
 
 def fluid(weight: Any, box: tuple[float, float], eos: Any = IdealGas(), law: Any = FRICTIONLESS,  # noqa: B008
           **more: Any) -> Spam:
-    """As printed, in a box that is periodic along both axes    [KHP95, Sec. II]"""
+    """The scheme as printed, in a box that is periodic along both axes    [KHP95, Sec. II]"""
     walls = (*periodic(box[0]), *periodic(box[1], axis=1))
     return Spam(weight=weight, eos=eos, law=law, walls=walls, box=box, **more)
 

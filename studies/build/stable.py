@@ -1,4 +1,4 @@
-"""Points with an entropy-stable flux where others hold them: on plates, around a body; blended pressure."""
+"""Entropy-stable methods with points on plates or with a blended pressure; methods around a disc."""
 from dataclasses import fields as fields_of
 from dataclasses import replace
 from typing import Any, NamedTuple
@@ -19,26 +19,26 @@ from particles.integral.triangulation import around, delaunay
 from studies.build.fixed import OF_LIMIT, Scheme
 from studies.build.setting import CannotTake, Ready, check_spacings, no_still_layer, shifted, stepped
 
-#: kinds with the flux
+#: class of a method -> the same method with an entropy-stable flux
 WITH_FLUX: dict[type, type] = {Stream: StableStream, Layer: StableLayer, MovingDelaunay: StableDelaunay}
 
 
 def with_flux(made: Ready) -> Ready:
-    """The same points, edges and start with the flux."""
+    """The same points, edges and start with an entropy-stable flux."""
     method = made.method
     given = {one.name: getattr(method, one.name) for one in fields_of(method)}
     return stepped(WITH_FLUX[type(method)](**given), made.start, OF_LIMIT)
 
 
 class StablePlates(Scheme):
-    """Rows of points on the plates."""
+    """A scheme with rows of points on the plates and an entropy-stable flux."""
 
     def ready(self, scene: Any, seed: int = 1, fields: tuple | None = None) -> Ready:
         return with_flux(super().ready(scene, seed, fields))
 
 
 class Blended(Scheme):
-    """The pressure that keeps contacts and is RR98's elsewhere."""
+    """A scheme with a blended pressure, which preserves contacts and is RR98's elsewhere."""
 
     def ready(self, scene: Any, seed: int = 1, fields: tuple | None = None) -> Ready:
         made, eos = super().ready(scene, seed, fields), scene.eos
@@ -47,14 +47,14 @@ class Blended(Scheme):
 
 
 class Around(NamedTuple):
-    """Jittered points around a disc of radius `scene.disc` without heat, in a periodic box: triangles end at
-    points on its edge."""
+    """Jittered points around an insulated disc of radius `scene.disc`, in a periodic box. Triangles end at points
+    on its rim. flux : entropy-stable."""
     name: str
     flux: bool = False
     size: float = 0.3
 
     def refuses(self, scene: Any) -> str:
-        """Which part of a scene this cannot take; empty for none."""
+        """The part of a scene that this cannot take; empty if none."""
         if not isinstance(scene.sides, Torus):
             return f"sides = {scene.sides}"
         return "" if getattr(scene, "disc", 0) > 0 else "no disc"
@@ -70,13 +70,13 @@ class Around(NamedTuple):
         return with_flux(made) if self.flux else made
 
     def around(self, scene: Any, x: np.ndarray, edge: np.ndarray) -> Any:
-        """The method on points x (n, 2), of which some are on the edge."""
+        """The method on points x (n, 2); edge : indices of those on the rim of the disc."""
         edges = around(of_positions(x, (scene.width, scene.L)), edge)
         return Stream(x=x, edges=edges, eos=scene.eos, law=scene.law, held=held(edge), solid=False)
 
 
 class Past(Around):
-    """The same on points that the stream carries past the disc."""
+    """Points that move past the disc with their triangulation."""
 
     def around(self, scene: Any, x: np.ndarray, edge: np.ndarray) -> Any:
         web = rings(x, (scene.width, scene.L), (False, False), edge)
@@ -87,7 +87,7 @@ STABLE = {one.name: one for one in (
     Blended("fixed-lattice-entropy-stable-blended", kind=StableLayer, lacks=no_still_layer),
     StablePlates("fixed-jittered-plates-entropy-stable", delaunay, size=0.3, held=True),
 )}
-#: those with points on plates, where a scene has a disc in place of plates
+#: name of a method with points on plates -> the method around a disc that takes its place
 BODIES = {one.name: one for one in (
     Around("fixed-jittered-plates"),
     Around("fixed-jittered-plates-entropy-stable", flux=True),

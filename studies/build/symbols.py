@@ -1,14 +1,14 @@
-"""What a square lattice makes of plane waves of small amplitude in a gas at rest    [RR98, Sec. III]
+"""Plane waves of small amplitude in a gas at rest, as computed on a square lattice    [RR98, Sec. III]
 
 Numbers as in `continuum.exact.waves`. Sums are over points r of a lattice of unit spacing, w = c W(r) with
-c from sum_r w r = d, e = r/r, n = k/k, m across n:
+c from sum_r w r = d, e = r/|r|, n = k/|k|, m normal to n:
 
     s = sum_r w e.n sin k.r                                        [Eqs 34-36]
     nested: l, q, t with s^2 for k^2                               [Eqs 37, 38]
     pairwise: sum_r (2 w/r) (1 - cos k.r) times                    [Eq. 51]
         A + B (e.n)^2 for l, A + B (e.m)^2 for t, kappa for q
 
-Nothing here knows the matrices that are under test.
+This module shares no code with the matrices under test.
 """
 from typing import Any
 
@@ -27,7 +27,7 @@ def neighbours(weight: Any, d: int) -> np.ndarray:
 
 
 def lattice_waves(gas: LinearGas, weight: Any, k: np.ndarray, nested: bool) -> Waves:
-    """At the wave vector k (2,) along an axis or a diagonal, where the gradient is along k."""
+    """Waves of the lattice at a wave vector k (2,) along an axis or a diagonal; gradients are along k."""
     d = len(k)
     r = neighbours(weight, d)
     size, n = np.sqrt((r**2).sum(axis=1)), k/np.hypot(*k)

@@ -1,4 +1,4 @@
-"""The largest stable step by trial: noise that grows, or does not, and an interval that is halved."""
+"""The largest stable time step by trial: bisection by whether noise grows."""
 from collections.abc import Callable
 from math import inf
 from typing import Any, NamedTuple
@@ -7,12 +7,12 @@ import numpy as np
 
 from particles.limits import limit_of
 
-HALVINGS = 8            # of the factor 2 between a step that is stable and one that is not: 0.3 %
+HALVINGS = 8            # of the factor 2 between a stable and an unstable step: to 0.3 %
 WIDENINGS = 6           # factors of 2 on either side before the search gives up
 
 
 class Unguarded:
-    """A method whose step is not held against its limit; `integrator` in place of its own, if given."""
+    """A method whose time step is not checked against its limit; `integrator` replaces its own, if given."""
 
     def __init__(self, method: Any, integrator: Any = None):
         self.method = method
@@ -29,13 +29,13 @@ def _(method: Unguarded, start: np.ndarray) -> float:
 
 
 class Found(NamedTuple):
-    """A limit, and half of the interval that it lies in; not a number where there is none."""
+    """A limit and the half width of its interval; nan if none was found."""
     value: float
     half: float
 
 
 def bisected(grows: Callable[[float], bool], first: float) -> Found:
-    """The step at which `grows` turns true: from `first` by factors of 2, then by halving its logarithm."""
+    """The step above which `grows` is true: from `first` by factors of 2, then by bisecting the logarithm."""
     low, high = bracket(grows, first)
     for _ in range(HALVINGS if low < high else 0):
         middle = float(np.sqrt(low*high))
@@ -44,7 +44,7 @@ def bisected(grows: Callable[[float], bool], first: float) -> Found:
 
 
 def bracket(grows: Callable[[float], bool], first: float) -> tuple[float, float]:
-    """Two steps a factor of 2 apart: nothing grows at the first, something does at the second."""
+    """Two steps a factor of 2 apart, `grows` false at the first and true at the second; nan if not found."""
     step, bad = first, grows(first)
     for _ in range(WIDENINGS):
         other = step/2 if bad else 2*step

@@ -11,40 +11,40 @@ from particles.weights import WEIGHTS
 
 
 class Word(NamedTuple):
-    """What a name stands for, in a sentence, and where it comes from."""
+    """A name, its meaning in a sentence, and its source."""
     name: str
     about: str
     source: str = ""
 
 
 def of(kind: str) -> dict[str, Word]:
-    """Words of a kind, by their names, as words.csv has them."""
+    """Words of a kind in words.csv, by name."""
     with Path(__file__).with_suffix(".csv").open(newline="") as lines:
         return {row["name"]: Word(row["name"], row["about"], row["source"])
                 for row in csv.DictReader(lines) if row["kind"] == kind}
 
 
 METHODS, SCENES, QUANTITIES = of("method"), of("scene"), of("quantity")
-#: smooth particles with a weight that has no line of its own, by the first line of its docstring
+#: spam with a weight that has no line in words.csv is explained by the first line of the weight's docstring
 METHODS = {f"spam-{name}": Word(f"spam-{name}", f"spam with {str(kind.__doc__).splitlines()[0]} as weight")
            for name, kind in WEIGHTS.items() if name not in ("lucy", "monaghan")} | METHODS
-#: methods that tables and figures name besides: with another number, or of one study
+#: further methods that tables and figures name: with another parameter, or of one study
 VARIATIONS = of("variation")
-#: method in tables that have a variant besides -> the family, and the variant that has the family's own name
+#: column `method` of tables -> the family, and the variant that is called by the family's name alone
 FAMILIES = {"compressible": ("grid", "flux-form"), "spam": ("spam", "printed"), "dih": ("", ""),
             "boussinesq": ("boussinesq", "mac"), "linear": ("linear-theory", ""),
             "pypde-compressible": ("py-pde", "staggered")}
 
 
 def name_of(method: str, variant: str = "") -> str:
-    """The name of what tables call by a method and a variant; nothing where it has none."""
+    """Name of the method with these columns `method` and `variant` in tables; empty if it has none."""
     family, usual = FAMILIES.get(method, (method, ""))
     name = "-".join(filter(None, (family, variant.removeprefix(usual).removeprefix("-"))))
     return name if name in METHODS or name in VARIATIONS else ""
 
 
 def explained(text: str = "") -> str:
-    """Lines of all words with a text in their name or sentence, below what they are."""
+    """Lines of all words that contain a text, below a title for each kind."""
     lines = []
     for title, words in (("methods", METHODS), ("methods of single studies", VARIATIONS), ("scenes", SCENES),
                          ("quantities", QUANTITIES)):
