@@ -190,7 +190,7 @@ class DihDrift(WatchedRun):
 
 
 def step_limit(fluid: Dih, state: np.ndarray) -> float:
-    """Stable step of RK4, from the fastest sound and fastest diffusion over the edges at the extreme fields."""
+    """Stable step of RK4, from the fastest sound and fastest diffusion over the edges, at extreme fields."""
     flow = fluid.flow(state)
     sound, spread = fluid.edges.fastest
     fast = np.sqrt(2*flow.T.max()) + np.sqrt((flow.v**2).sum(axis=1)).max()
@@ -200,7 +200,7 @@ def step_limit(fluid: Dih, state: np.ndarray) -> float:
 
 @dataclass(frozen=True, kw_only=True)
 class OneSided(Dih):
-    """A pressure that is not symmetric in ij: 2 P_ij acts on the first point of an edge, 2 P_ji on the second."""
+    """A pressure not symmetric in ij: 2 P_ij acts on the first point of an edge, 2 P_ji on the second."""
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
         """Write d(state)/dt to `out`: P_ij - P_ji is added to the force on both points with the same sign."""
