@@ -1,9 +1,9 @@
-"""Which runs there are.
+"""Cases of the study conservation, by size.
 
-On fixed points in periodic boxes all makers of edges meet all sets of points, with friction along edges for
-every weight. Any other transport has one weight, and on one set of points every weight; so do mirror plates.
-Any two values of two factors meet in some run, where they can: Delaunay edges have no weight, on a lattice
-closed and exact edges are the plain ones times a number. Paper size takes a quarter of an hour of one core.
+On fixed points in periodic boxes every edge maker runs on every point set, with friction along edges for
+every weight. Other transports have one weight, and every weight on one point set; so do mirror plates. Any
+two values of two factors occur together in some run, if they can: Delaunay edges have no weight; on a lattice
+closed and exact edges are plain ones times a number. Size `paper` takes a quarter of an hour on one core.
 """
 from collections.abc import Iterator
 from dataclasses import replace
@@ -46,31 +46,31 @@ from studies.kit.case import Case
 WEIGHT_KINDS = tuple(WEIGHTS.values())
 KINDS = ("lattice", "jittered-0.3", "random", "relaxed")
 IDEAL = MODES[-1]
-#: one maker on a lattice, one off it
+#: (edge maker, point set): one on a lattice, one off it
 TWO = (("renormalised", "lattice"), ("delaunay", "jittered-0.3"))
-#: what is left out of the scheme of moving points
+#: variants of the scheme of moving points, each without one ingredient
 LESS = {"heating as printed": Ingredients(transport=PRINTED), "open faces": Ingredients(iterations=0),
         "whole pressure": Ingredients(static=0.0), "mass not spread": Ingredients(spread=0.0)}
 KEEP = ("literal", "constant-mass")
 POWERS = ((0, 0), (1, -1), (2, -2), (0, -1), (1, 0), (2, 0), (1, 1), (3, 0))
 REYNOLDS = (0.1, 10.0, 1000.0, float("inf"))
-SMOOTH = (24, 28, 32, 36, 40, 44, 48, 52, 56)      # rows where errors are smooth, and where they are not
+SMOOTH = (24, 28, 32, 36, 40, 44, 48, 52, 56)      # rows of bodies with smooth errors; with scattered errors
 SCATTERED = tuple(range(24, 50, 2))
 
 
 def pairs(kinds: tuple[str, ...]) -> list[tuple[str, str]]:
-    """Makers and sets of points that go together."""
+    """(edge maker, point set), without closed and exact edges on a lattice: they are scaled plain ones."""
     return sorted({*product(MAKERS, kinds)} - {("closed", "lattice"), ("exact", "lattice")})
 
 
 def layer(maker: str, points: str, mode=PAIRWISE, wall: Wall = OPEN, **more) -> LayerDrift:
-    """A run of the compiled scheme."""
+    """A long run of the compiled scheme on fixed points."""
     return LayerDrift(mode=mode, maker=maker, make=MAKERS[maker], disorder=DISORDERS[points], wall=wall,
                       **more)
 
 
 def layers(kinds: tuple[str, ...], weights: tuple[type, ...], steps: int) -> Iterator[LayerDrift]:
-    """Periodic boxes."""
+    """Long runs on fixed points in periodic boxes."""
     for maker, points in pairs(kinds):
         for weight in weights if maker != "delaunay" else weights[:1]:
             yield layer(maker, points, weight=weight, steps=steps)
@@ -81,7 +81,7 @@ def layers(kinds: tuple[str, ...], weights: tuple[type, ...], steps: int) -> Ite
 
 
 def plates(kinds: tuple[str, ...], weights: tuple[type, ...], steps: int) -> Iterator[LayerDrift]:
-    """Between mirror images, which take momentum and heat where there is friction."""
+    """Long runs between mirror plates, which exchange momentum and heat where there is friction."""
     for mode, pair in product((PAIRWISE, IDEAL), pairs(kinds)):
         yield layer(*pair, mode, PLATES, steps=steps)
     for pair in TWO:
@@ -93,7 +93,7 @@ def plates(kinds: tuple[str, ...], weights: tuple[type, ...], steps: int) -> Ite
 
 
 def dimensions(steps: int, seeds: int) -> Iterator[Case]:
-    """One to three dimensions, Eq. 37 as printed; starts on a line, of which six left the claim open."""
+    """Runs in 1D to 3D, also of Eq. 37 as printed; runs of a one-sided pressure: six left the claim open."""
     printed = NestedFluxes(differences=False)
     for box, mode, transport in ((LINE, "pairwise", Pairwise()), (LINE, "nested", NestedFluxes()),
                                  (LINE, "printed", printed), (SQUARE, "printed", printed),
@@ -104,7 +104,7 @@ def dimensions(steps: int, seeds: int) -> Iterator[Case]:
 
 
 def motions(steps: int, weights: tuple[type, ...]) -> Iterator[Case]:
-    """On jittered points with RK4; on a lattice, with the paper's two steps, those that it prints."""
+    """Every motion on jittered points with RK4; the printed motions on a lattice with Eqs 40, 41."""
     for name, kind in MOTIONS.items():
         claimed = EVERYTHING if name in KEEP else "nothing"
         yield MotionDrift(motion=name, kind=kind, steps=steps, claimed=claimed)
@@ -115,7 +115,7 @@ def motions(steps: int, weights: tuple[type, ...]) -> Iterator[Case]:
 
 
 def moving() -> Iterator[MovingDrift]:
-    """Every start in a box and between plates, then every weight, then without an ingredient."""
+    """Moving points with closed faces: every point set and wall, every weight, every left-out ingredient."""
     for kind, wall in product(KINDS, (OPEN, PLATES)):
         yield MovingDrift(disorder=DISORDERS[kind], wall=wall)
     yield from (MovingDrift(weight=weight) for weight in WEIGHT_KINDS if weight is not WendlandC2)
@@ -123,7 +123,7 @@ def moving() -> Iterator[MovingDrift]:
 
 
 def once() -> Iterator[Case]:
-    """Equations evaluated once, and positions by two rules."""
+    """Equations evaluated on given fields; errors of positions by Eqs 40 and 41; Eq. 50 beside SPAM."""
     yield from (Signs(), *PLACES)
     yield from (BracketForce(a=float(a), b=float(b)) for a, b in POWERS)
     yield from (BesideSpam(a=float(a), b=float(b)) for a, b in ((1, -1), (0, 0), (2, 0)))
@@ -132,7 +132,7 @@ def once() -> Iterator[Case]:
 
 
 def speeds(wavelengths: tuple[int, ...]) -> Iterator[Case]:
-    """Of patterns and of sound."""
+    """Speeds of density patterns and of sound on moving points."""
     for (name, kind), wavelength in product(MOTIONS.items(), wavelengths):
         yield Pattern(motion=name, kind=kind, wavelength=wavelength)
         yield MovingSound(motion=name, kind=kind, wavelength=wavelength)
@@ -141,19 +141,19 @@ def speeds(wavelengths: tuple[int, ...]) -> Iterator[Case]:
 
 
 def drags(fraction: float, sizes: dict[str, tuple[int, ...]]) -> Iterator[Case]:
-    """Of some variants."""
+    """Drags of a cylinder; sizes: variant of the body -> numbers of rows."""
     for name, rows in sizes.items():
         yield from (CylinderDrag(variant=VARIANTS[name], fraction=fraction, rows=n) for n in rows)
 
 
 def sliding(waves: tuple[int, ...]) -> Iterator[Case]:
-    """Flows between sliding sides."""
+    """Flows between sliding (Lees-Edwards) sides."""
     yield from (TurningWave(rows=rows) for rows in waves)
     yield from (SlidingShear(rows=rows) for rows in waves[:3])
 
 
 def torques(seeds: int) -> Iterator[Case]:
-    """Of exchanges over edges, of motions, of smooth particles."""
+    """Torques of exchanges over edges, of moving points, of smooth particles."""
     for (maker, points), seed in product(pairs(("lattice", "jittered-0.3")), range(1, seeds + 1)):
         if seed == 1 or points != "lattice":
             yield EdgeTorque(make=MAKERS[maker], points=points, seed=seed)
@@ -162,7 +162,7 @@ def torques(seeds: int) -> Iterator[Case]:
 
 
 def quick() -> Iterator[Case]:
-    """Short runs with one weight, no relaxed points and none that move over closed faces; small bodies."""
+    """Short runs with one weight on lattice and jittered points; small bodies; no closed faces."""
     some = KINDS[:2], WEIGHT_KINDS[:1]
     yield from (*layers(*some, steps=300), *plates(*some, steps=300))
     yield from (*dimensions(300, seeds=2), *motions(40, WEIGHT_KINDS[:1]), *once(), *speeds((8,)))
@@ -171,7 +171,7 @@ def quick() -> Iterator[Case]:
 
 
 def paper() -> Iterator[Case]:
-    """All of them."""
+    """All cases at full length."""
     yield from (*layers(KINDS, WEIGHT_KINDS, 10_000), *plates(KINDS, WEIGHT_KINDS, 10_000))
     yield from (*dimensions(10_000, seeds=24), *motions(10_000, WEIGHT_KINDS), *once(), *moving())
     yield from speeds((8, 16, 24, 32))

@@ -1,4 +1,4 @@
-"""Long runs on fixed points [RR98 Eqs 34-38] and on moving ones [Eqs 39-49]."""
+"""Long runs on fixed points [RR98 Eqs 34-38] and on moving points [Eqs 39-49]."""
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -31,16 +31,16 @@ from studies.conservation.sums import (
 from studies.kit.case import Outcome, Report
 
 SIDE = 8                # of the box, in spacings
-H = 3.0                 # range of the weights
-FROM_PLATE = 0.25       # of a spacing: irregular points come no nearer to a plate
-FEW, NARROW = 6, 2.7    # the same of boxes and weights of RR98's moving points
+H = 3.0                 # range of the weights, in spacings
+FROM_PLATE = 0.25       # least distance of irregular points from a plate, in spacings
+FEW, NARROW = 6, 2.7    # side of the box and range of the weights for RR98's moving points
 
 
 class Mode(NamedTuple):
-    """Transport of a run: eta = kappa, share along edges, whether its heating is mended.
+    """Transport of a run: eta = kappa, share of it along edges; mended : as in `dih.Pairwise`.
 
-    size : rms of the random start. Without friction it feeds short waves at rates of the order of itself,
-    which 10 000 steps are to leave small.
+    size : rms of the random fields at the start. Without friction short waves grow at rates of about this
+    size, and have to stay small for 10 000 steps.
     """
     name: str
     eta: float = 0.1
@@ -55,7 +55,7 @@ MODES = (PAIRWISE, Mode("unmended", mended=False), Mode("nested", share=0.0), Mo
 
 
 class Wall(NamedTuple):
-    """What is above and below: the box again, or plates at T = 1 under gravity."""
+    """Sides above and below: periodic, or plates at T = 1; gravity g."""
     name: str
     plates: bool = False
     g: float = 0.0
@@ -67,7 +67,7 @@ UNDER_GRAVITY = Wall("plates, gravity", plates=True, g=0.01)
 
 
 def around(disorder: Disorder, seed: int, plates: bool) -> Points:
-    """SIDE^2 points in the box, away from plates."""
+    """SIDE^2 points in the box, FROM_PLATE or more away from plates."""
     points = disorder.make((SIDE, SIDE), disorder.size, seed)
     if not plates:
         return points
@@ -79,9 +79,9 @@ def around(disorder: Disorder, seed: int, plates: bool) -> Points:
 
 @dataclass(frozen=True, kw_only=True)
 class LayerDrift(WatchedRun):
-    """Fixed points of unit spacing in a periodic box or between mirror plates.
+    """Long run on fixed points of unit spacing in a periodic box or between mirror plates.
 
-    make : of `edge_makers.MAKERS`, `maker` its name there. weight : class.
+    make : edge maker of `edge_makers.MAKERS`, maker : its name there. weight : class.
     """
     mode: Mode
     maker: str
@@ -100,16 +100,16 @@ class LayerDrift(WatchedRun):
         points = around(self.disorder, self.seed, between)
         try:
             method = self.method(points)
-        except ArithmeticError:         # these points have no such edges
+        except ArithmeticError:         # no such edges exist on these points
             return Outcome({})
         state = method.state(*random_fields(points, self.mode.size, self.seed, between))
 
         def totals(now: np.ndarray) -> np.ndarray:
-            """With the energy of height; between plates momentum along them only."""
+            """Mass, momentum (between plates only along them), energy with m g y."""
             rho, px, py, energy = now
             whole = np.stack([rho, px, py*(not between), energy + g*method.x[:, 1]*rho])
             return exact_sums(method.edges.V, whole)
-        # plates with friction take momentum and heat; gravity works on no discrete mass flux
+        # plates with friction exchange momentum and heat; gravity does not work on the discrete mass flux
         taken = g or (between and self.mode.eta)
         return self.watched(
             compiled(method, state), state, totals, sizes(method.eos, method.fields(state)), report,
@@ -117,7 +117,7 @@ class LayerDrift(WatchedRun):
             points=self.disorder.name, wall=wall, claimed="mass" if taken else EVERYTHING)
 
     def method(self, points: Points) -> Layer:
-        """The scheme; without plates there are no images. Raises ArithmeticError: there are no such edges."""
+        """The compiled scheme on these points. Raises ArithmeticError: no such edges exist on them."""
         weight, eta = self.weight.of(h=H), self.mode.eta
         if self.wall.plates:
             edges, beyond = between_plates(self.make, points.x, SIDE, SIDE, weight)
@@ -129,7 +129,7 @@ class LayerDrift(WatchedRun):
 
 @dataclass(frozen=True, kw_only=True)
 class MovingDrift(WatchedRun):
-    """SIDE^2 points that move and exchange over closed faces; `name`: what is left out of the scheme."""
+    """Long run on SIDE^2 moving points with closed faces. name : what `ingredients` leave out, if any."""
     name: str = "pairwise"
     ingredients: Ingredients = Ingredients()  # noqa: RUF009 (immutable)
     weight: Any = WendlandC2
@@ -150,7 +150,7 @@ class MovingDrift(WatchedRun):
         state = method.state(points.x, *random_fields(points, PAIRWISE.size, self.seed, between))
 
         def totals(now: np.ndarray) -> np.ndarray:
-            """Mass, momentum (between plates along them only), energy, volume."""
+            """Mass, momentum (between plates only along them), energy, volume."""
             px, py, m, V, E = exact_sums(np.ones(1), now[EXCHANGED])
             return np.array([m, px, py*(not between), E, V])
         return self.watched(
@@ -166,9 +166,9 @@ class MovingDrift(WatchedRun):
 
 @dataclass(frozen=True, kw_only=True)
 class MotionDrift(WatchedRun):
-    """Vortices and sound on a stream, points that move, a viscous gas; watched at every step.
+    """Long run of RR98's moving points: vortices and sound on a stream of viscous gas, recorded every step.
 
-    kind : of `rr98_moving_plain.MOTIONS`, `motion` its name. integrator, weight : classes.
+    kind : class of `rr98_moving_plain.MOTIONS`, motion : its name there. integrator, weight : classes.
     """
     motion: str
     kind: type[Motion]

@@ -32,7 +32,7 @@ def drags(drag: pd.DataFrame) -> Figure:
 
 
 def draw_drags(axes: Axes, rows: pd.DataFrame) -> None:
-    """Of each variant over the radius."""
+    """Draw the error of each variant over the radius."""
     for number, (name, words) in enumerate(BODIES.items()):
         group = rows[rows["variant"] == name]
         bars(axes, group, "radius", "percent", number=number, label=words,

@@ -1,9 +1,9 @@
-"""Forces at one moment: their torques, and those of Eq. 50 beside smooth particles    [RR98 Eqs 34-51]
+"""Torques of forces at one moment, and forces of Eq. 50 beside those of smooth particles    [RR98 Eqs 34-51]
 
-An edge takes the momentum f from i to j, and with it the angular momentum (x_j - x_i) x f from nowhere. That
-is zero for each edge if f points along it. It is zero in the sum over all edges for a stress that both ends
-have half of, f = S.(s_i + s_j)/2 with s symmetric, where edges are exact on linear fields; and for friction k
-(v_j - v_i) where the Laplacian of x is zero.
+An edge that carries the momentum f from i to j creates the angular momentum (x_j - x_i) x f. This is zero for
+each edge if f points along the edge. The sum over all edges is zero for the mean stress of both ends, f = S.
+(s_i + s_j)/2 with s symmetric, if edges are exact on linear fields; and for the friction f = k (v_j - v_i) if
+the Laplacian of x is zero.
 """
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
@@ -27,7 +27,7 @@ from studies.conservation.sums import SIZE, random_fields
 from studies.kit.case import Case, Outcome, Report
 
 LUCY, VISCOUS = Lucy.of(h=3.0), ConstEta(0.1, 0.1)
-RADIUS, WIDE = 6.0, (40, 40)        # of a disc with a free rim, in a box that its pairs do not cross
+RADIUS, WIDE = 6.0, (40, 40)        # a disc with a free rim, and a box wider than the reach of its pairs
 
 
 def relative(x: np.ndarray, f: np.ndarray) -> float:
@@ -37,7 +37,7 @@ def relative(x: np.ndarray, f: np.ndarray) -> float:
 
 
 def exchanges(edges: Edges, fields: Any) -> Iterator[tuple[str, np.ndarray]]:
-    """Name and momentum (E, 2) that leaves the first point of each edge, of (rho, v, T)."""
+    """Exchanges by name: momentum (E, 2) that leaves the first point of each edge; fields: rho, v, T."""
     dih = Dih(edges=edges, eos=IdealGas(), law=VISCOUS, transport=ALONG)
     flow = dih.flow(dih.state(*fields))
     a, b, half = take(flow, edges.i), take(flow, edges.j), edges.S/2
@@ -54,7 +54,7 @@ def exchanges(edges: Edges, fields: Any) -> Iterator[tuple[str, np.ndarray]]:
 
 @dataclass(frozen=True, kw_only=True)
 class EdgeTorque(Case):
-    """Of each exchange over edges on points that stay, random fields in a periodic box."""
+    """Torque of each exchange over edges, for random fields on fixed points in a periodic box."""
     make: Callable[[Points, Any], Edges]
     points: str
     seed: int = 1
@@ -70,9 +70,9 @@ class EdgeTorque(Case):
 
 @dataclass(frozen=True, kw_only=True)
 class MotionTorque(Case):
-    """Of all forces on a disc of jittered points, for a motion of these, or for smooth particles (no kind).
+    """Torque of all forces on a disc of RR98's moving points, or of smooth particles (kind None), jittered.
 
-    law : with friction, nested.
+    law : viscosity and conductivity; transport is nested.
     """
     motion: str
     kind: Any
@@ -94,7 +94,7 @@ class MotionTorque(Case):
         rates = np.empty_like(state)
         method.rates(state, rates)
         up, down = (q[3:5]*q[-1]/method.owned(q[-1]) for q in (state + rates, state - rates))
-        return (up - down).T/2              # exact: products of two
+        return (up - down).T/2              # exact: momentum is a product of two rows
 
 
 def smooth(points: Points, law: Any = STILL) -> tuple[Spam, np.ndarray]:
@@ -104,7 +104,7 @@ def smooth(points: Points, law: Any = STILL) -> tuple[Spam, np.ndarray]:
 
 
 def rates_of(method: Spam, state: np.ndarray) -> np.ndarray:
-    """d(state)/dt of smooth particles, in their order."""
+    """d(state)/dt of smooth particles, in the order of the state."""
     sums, ordered, ids = method.look(state)
     rates = np.empty_like(state)
     sums.rates(ordered, rates)
@@ -113,10 +113,10 @@ def rates_of(method: Spam, state: np.ndarray) -> np.ndarray:
 
 @dataclass(frozen=True, kw_only=True)
 class BesideSpam(Case):
-    """Eq. 50 and smooth particles, from one state without friction: random fields, jittered points, m = 1.
+    """Eq. 50 beside smooth particles, from one state without friction: random fields, jittered points, m = 1.
 
-    Volumes begin as 1/rho of the summed density, and follow the flow. With a = 1, b = -1 a pair then has
-    V_i V_j (P_i rho_j/rho_i + P_j rho_i/rho_j) = P_i/rho_i^2 + P_j/rho_j^2.
+    Volumes of Eq. 50 are 1/rho of the summed density at the start, and then follow the flow. With a = 1, b =
+    -1 pressures of a pair are V_i V_j (P_i rho_j/rho_i + P_j rho_i/rho_j) = P_i/rho_i^2 + P_j/rho_j^2.
     """
     a: float
     b: float
@@ -138,5 +138,5 @@ class BesideSpam(Case):
 
 
 def apart(one: np.ndarray, other: np.ndarray) -> float:
-    """Rms of a difference over that of the second."""
+    """Rms of the difference over the rms of the second."""
     return float(np.linalg.norm(one - other)/np.linalg.norm(other))

@@ -1,4 +1,4 @@
-"""Points that move as RR98 prints it: equations evaluated once, speeds of waves    [RR98 Eqs 39-50]"""
+"""RR98's moving points: equations on given fields, speeds of waves, positions    [RR98 Eqs 39-50]"""
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -28,39 +28,39 @@ from studies.kit.stats import Measured, with_errors
 
 ALONG = Pairwise(mended=False)
 STILL, C = ConstEta(0.0, 0.0), np.sqrt(2.0)     # c^2 = gamma P/rho = 2 at rho = T = 1
-AMPLITUDE = 1e-4        # of waves: what is quadratic in it is 1e-4 of what is linear, and of another length
+AMPLITUDE = 1e-4        # of waves: quadratic terms are 1e-4 of linear ones, and of another wavelength
 BREADTH = 8             # spacings across a wave: more than twice the widest weight
-LENGTH = 32             # spacings of a wave on which equations are evaluated once
+LENGTH = 32             # spacings of a wave on which equations are evaluated without steps
 STREAM = 0.2
-DT = 0.2                # of waves on moving points, with RK4
+DT = 0.2                # time step of waves on moving points, with RK4
 
 
 def strip(wavelength: int, breadth: int = BREADTH) -> Points:
-    """Lattice that is one wavelength long, or more waves where one is too short."""
+    """Lattice of one wavelength, or of several where one is shorter than the breadth."""
     waves = max(1, -(-breadth//wavelength))
     return lattice((wavelength*waves, breadth))
 
 
 def moving(kind: Any, points: Points, weight: Any, law: Any = STILL, **more: Any) -> Any:
-    """A motion on points with renormalised edges; forces along edges, whose heating most runs do not need."""
+    """A motion on points with renormalised edges and friction along edges, by default as printed."""
     settings = {"transport": ALONG, "scale": scale_of(points, weight), **more}
     return kind(box=tuple(points.box), weight=weight, eos=IdealGas(), law=law, **settings)
 
 
 def seen(weight: Any, points: Points, k: float) -> tuple[float, float]:
-    """What sums over the lattice see of a wave along x, 1 in the continuum, with the scale of `renormalised`.
+    """Lattice sums of a wave along x over their continuum values, with the scale of `renormalised`.
 
-    Of gradients, wave number over k; stiffness of a moved lattice, (1/k^2) sum_r w_xx (1 - cos kx).
+    Wave number of discrete gradients over k; stiffness of a moved lattice, (1/k^2) sum_r w_xx (1 - cos kx).
     """
     sums, scale = lattice_sums(weight, 1.0, 1.0, np.array([[k, 0.0]])), scale_of(points, weight)
     return float(scale*np.abs(sums.S[0, 0])/k), float(scale*sums.D[0, 0, 0]/k**2)
 
 
-# --- equations evaluated once -------------------------------------------------------------------
+# --- equations evaluated on given fields --------------------------------------------------------
 
 
 def acceleration(method: Any, state: np.ndarray) -> np.ndarray:
-    """dv/dt, (d, n), of dp/dt - v dm/dt."""
+    """dv/dt = (dp/dt - v dm/dt)/m, (d, n)."""
     d, rates = method.places, np.empty_like(state)
     method.rates(state, rates)
     m, dm, dp = state[d], rates[d], rates[d + 1:2*d + 1]
@@ -69,9 +69,9 @@ def acceleration(method: Any, state: np.ndarray) -> np.ndarray:
 
 @dataclass(frozen=True, kw_only=True)
 class Identity(Case):
-    """Accelerations of Eqs 46-48 against those of Eq. 49: random fields on jittered points, 10 x 10.
+    """Accelerations by Eqs 46-48 against those by Eq. 49: random fields on 10 x 10 jittered points.
 
-    Reynolds number: U a/nu with U = 0.1; infinite without viscosity.
+    reynolds : U a/nu with U = 0.1; infinite without viscosity.
     """
     name: str
     transport: Any
@@ -94,7 +94,7 @@ class Identity(Case):
 
 @dataclass(frozen=True, kw_only=True)
 class Signs(Case):
-    """What Eqs 46-48 add to d/dt over v.grad of smooth fields on a lattice, by least squares."""
+    """Term that Eqs 46-48 add to d/dt, over v.grad of smooth fields on a lattice, by least squares."""
 
     def run(self, report: Report, folder: Path) -> Outcome:
         points, k = strip(LENGTH), 2*np.pi/LENGTH
@@ -112,7 +112,7 @@ class Signs(Case):
 
 @dataclass(frozen=True, kw_only=True)
 class BracketForce(Case):
-    """Acceleration by Eq. 50, powers a and b, in a wave without entropy (P = rho^2), over -grad P/rho."""
+    """Acceleration by Eq. 50 with powers a and b, over -grad P/rho, in an isentropic wave (P = rho^2)."""
     a: float
     b: float
 
@@ -132,7 +132,7 @@ class BracketForce(Case):
 
 def march(method: Any, state: np.ndarray, dt: float, steps: int, look: Callable[[np.ndarray], Any],
           integrator: Any = RK4) -> np.ndarray:
-    """look(state) before the first and after every step."""
+    """look(state) before the first step and after every step."""
     stepper, looks = integrator(state.shape, Threads(1)), [look(state)]
     for _ in range(steps):
         stepper.step(method, state, dt)
@@ -146,7 +146,7 @@ def amplitude(q: np.ndarray, x: np.ndarray, k: float) -> complex:
 
 
 def frequency(series: np.ndarray, dt: float) -> float:
-    """omega > 0 of a wave that stands: its series is a sum of two powers, by least squares."""
+    """omega > 0 of a standing wave, its series fitted as a sum of two powers by least squares."""
     known = np.stack([series[:-2], series[1:-1]], axis=1)
     b, c = np.linalg.lstsq(known, series[2:], rcond=None)[0]
     powers = np.asarray(np.roots([1.0, -c, -b]), complex)
@@ -154,16 +154,16 @@ def frequency(series: np.ndarray, dt: float) -> float:
 
 
 def by_halves(series: np.ndarray, measure: Callable[[np.ndarray], float]) -> Measured:
-    """A number from the whole series; its error is what the two halves differ by."""
+    """A number from the whole series; its error is the difference between the two halves."""
     one, other = (measure(half) for half in np.array_split(series, 2))
     return Measured(float(measure(series)), float(abs(one - other)))
 
 
 @dataclass(frozen=True, kw_only=True)
 class Pattern(Case):
-    """Speed of a density wave under uniform pressure over that of the stream that carries it, no viscosity.
+    """Speed of a density wave at uniform pressure over that of the stream that carries it, no viscosity.
 
-    kind : of `rr98_moving_plain.MOTIONS`, `motion` its name. Its error: what the halves of the run differ by.
+    kind : class of `rr98_moving_plain.MOTIONS`, motion : its name. Error: difference of the run's halves.
     """
     motion: str
     kind: type[Motion]
@@ -188,7 +188,7 @@ class Pattern(Case):
 
 @dataclass(frozen=True, kw_only=True)
 class MovingSound(Case):
-    """Speed of standing sound without viscosity over c, for two periods. weight : class."""
+    """Speed of a standing sound wave over c, from two periods without viscosity. weight : class."""
     motion: str
     kind: type[Motion]
     wavelength: int
@@ -209,7 +209,7 @@ class MovingSound(Case):
         waves = march(method, method.state(points.x, one, v, one), DT, steps, lambda state: state[3]@wave)
         speed = by_halves(waves, lambda part: frequency(part, DT)/(k*C))
         slope, stiffness = seen(weight, points, k)
-        # where volumes stay pressure is not balanced by volumes that give way
+        # constant volumes do not give way to the pressure
         more = slope**2 if self.motion in ("literal", "convective") else 0.0
         return Outcome({"moving_sound": [
             {"motion": self.motion, "weight": self.weight.__name__, "h": self.h,
@@ -221,13 +221,13 @@ class MovingSound(Case):
 
 
 def sound_flow(x: np.ndarray, box: np.ndarray) -> tuple[np.ndarray, ...]:
-    """Sound that travels, so that no phase of it is special: rho, v, T."""
+    """rho, v, T of a travelling sound wave: no phase of it is special."""
     wave = 0.02*np.sin(2*np.pi*x[:, 0]/box[0])
     return 1 + wave/C, np.stack([wave, 0*wave], axis=1), 1 + wave/C
 
 
 def vortex_flow(x: np.ndarray, box: np.ndarray) -> tuple[np.ndarray, ...]:
-    """Taylor-Green vortices, the pressure in balance: rho, v, T."""
+    """rho, v, T of Taylor-Green vortices with their steady pressure."""
     (X, Y), u = (2*np.pi*x/box).T, 0.1
     v = u*np.stack([np.sin(X)*np.cos(Y), -np.cos(X)*np.sin(Y)], axis=1)
     return np.ones(len(x)), v, 1 + u*u/4*(np.cos(2*X) + np.cos(2*Y))
@@ -235,10 +235,10 @@ def vortex_flow(x: np.ndarray, box: np.ndarray) -> tuple[np.ndarray, ...]:
 
 @dataclass(frozen=True, kw_only=True)
 class Places(Case):
-    """Rms error of positions with new velocities over that with old ones, against RK4 in as many steps.
+    """Rms error of positions with new velocities [Eq. 41] over that with old ones [Eq. 40], against RK4.
 
-    The error of that reference is its difference from RK4 with half as many. start : rho, v, T of positions
-    and box, `flow` its name.
+    All take as many steps; the error of RK4 is its difference from RK4 in half as many. start : function of
+    positions and box that gives rho, v, T, flow : its name.
     """
     motion: str
     flow: str
@@ -264,7 +264,7 @@ class Places(Case):
         return method.fields(state).x
 
 
-#: sound for one and a half periods: after whole ones the errors of some integrators are small by chance
+#: sound for one and a half periods: after whole periods the errors of some integrators are small by chance
 PLACES = (
     Places(motion="literal", flow="sound", start=sound_flow, counts=(16, 7), law=STILL, time=13.0, steps=240),
     Places(motion="constant-mass", flow="sound", start=sound_flow, counts=(16, 7), law=STILL, time=18.9,

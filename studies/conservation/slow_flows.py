@@ -22,40 +22,40 @@ from particles.weights import Lucy
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import Measured, with_errors
 
-ETA, SPEED = 2.0, 1e-3      # sound and friction limit the step alike; Re and Mach below 0.01
-PRESSURE = 0.05             # chi nu/(a^2 c^2) of the filter of the density
-TIMES = 15.0                # until the end, in those of the slowest motion
-OF_LIMIT = 0.9              # of the step to its stability limit: a steady flow knows no error of the step
-BOXES = 2.0                 # lengths of the box that images slide
-DIFFERENCE = 0.1            # of the speeds of neighbouring boxes
-SOUND = np.sqrt(2.0)        # its speed at rho = T = 1
-#: points, numbers of those that are the body, edges
+ETA, SPEED = 2.0, 1e-3      # sound and friction limit the step about equally; Re and Mach below 0.01
+PRESSURE = 0.05             # chi nu/(a^2 c^2) of the density filter
+TIMES = 15.0                # length of a run in decay times of the slowest motion
+OF_LIMIT = 0.9              # time step over its stability limit: a steady flow has no error of the step
+BOXES = 2.0                 # distance that images slide during a run, in lengths of the box
+DIFFERENCE = 0.1            # difference of the speeds of neighbouring boxes
+SOUND = np.sqrt(2.0)        # speed of sound at rho = T = 1
+#: points, indices of the points of the body, edges
 Cell = tuple[Points, np.ndarray, Edges]
 
 
 def spent(done: Run) -> dict[str, float]:
-    """How long a run was."""
+    """Columns with steps and CPU time of a run."""
     return {"steps": done.step, "cpu_s": done.cpu_s, "compile_s": done.compile_s}
 
 
 def in_disc(points: Points, radius: float) -> np.ndarray:
-    """Numbers of the points within a disc about the middle of the box, those on its edge among them."""
+    """Indices of the points in a disc about the middle of the box, its circumference included."""
     check_disc(points, radius)
     return np.flatnonzero(np.hypot(*points.x.T) <= radius*(1 + 1e-12))
 
 
 def check_disc(points: Points, radius: float) -> None:
-    """Refuse a disc without a point, and one that touches its own image."""
+    """Raise ValueError if a disc is smaller than a spacing or within two spacings of its own image."""
     if not points.a <= radius <= points.box.min()/2 - points.a:
         raise ValueError(f"a disc of radius {radius:g} in a box {points.box} must be at least a spacing, "
                          f"{points.a:.3g}, and as far from its image beyond the side; take more points")
 
 
 def with_surface(counts: tuple[int, int], radius: float) -> tuple[Points, np.ndarray]:
-    """A lattice of spacing 1 with a disc about its middle, and the disc's points, surface included.
+    """A lattice of spacing 1 with points on a circle about its middle, and the indices of the disc's points.
 
-    The lattice keeps off the circle by CLEAR, so that chords between neighbours on it are Delaunay edges. The
-    polygon lacks a fraction (2 pi/n)^2/6 of the area of the disc.
+    Lattice points nearer to the circle than CLEAR are left out, so that chords between neighbours on it are
+    Delaunay edges. The polygon of n points lacks a fraction (2 pi/n)^2/6 of the area of the disc.
     """
     at = lattice(counts)
     check_disc(at, radius)
@@ -67,7 +67,7 @@ def with_surface(counts: tuple[int, int], radius: float) -> tuple[Points, np.nda
 
 
 class Obstacle(NamedTuple):
-    """How a body is made from rows and radius. grown : spacings by which the frozen disc exceeds the body."""
+    """A way to make a body of a radius in rows^2 points. grown : added to the radius of a frozen disc."""
     name: str
     make: Callable[[int, float], Cell]
     grown: float = 0.0
@@ -75,13 +75,13 @@ class Obstacle(NamedTuple):
 
 
 def frozen(rows: int, radius: float) -> Cell:
-    """Lattice points within the disc."""
+    """A lattice; the body is its points within the disc."""
     points = lattice((rows, rows))
     return points, in_disc(points, radius), renormalised(points, Lucy.of(h=2.0))
 
 
 def triangulated(rows: int, radius: float) -> Cell:
-    """Points on the circle, edges of a triangulation."""
+    """Points on the circle, in a lattice; edges of a Delaunay triangulation."""
     points, body = with_surface((rows, rows), radius)
     return points, body, delaunay(points)
 
@@ -93,7 +93,7 @@ VARIANTS = {variant.name: variant for variant in (
 
 
 def drag(sums: Streaming, state: np.ndarray) -> float:
-    """F/(eta U): force over the edges of the body, in the last stage of a step, and push on its volume."""
+    """F/(eta U): force over edges to the body in the last stage of a step, and push on the body's volume."""
     method, V = sums.method, sums.method.edges.V
     inside = V[method.held.which].sum()
     force = sums.received[:, 0].sum() + method.push[0]*inside
@@ -102,9 +102,9 @@ def drag(sums: Streaming, state: np.ndarray) -> float:
 
 @dataclass(frozen=True, kw_only=True)
 class CylinderDrag(Case):
-    """A stream through a square array of cylinders, `rows` spacings from one to the next, until it is steady.
+    """Steady slow stream through a square array of cylinders, `rows` spacings from one to the next.
 
-    It is pushed so that the published drag holds it at about the mean velocity SPEED.
+    The push is that of the published drag at the mean velocity SPEED. fraction : of solid.
     """
     variant: Obstacle
     fraction: float
@@ -116,7 +116,7 @@ class CylinderDrag(Case):
 
     @property
     def slowest(self) -> float:
-        """Rate of the slowest motion in nu/L^2: of the mean velocity, or of sound that friction damps."""
+        """Slowest decay rate in nu/L^2: of the mean velocity, or of sound damped by friction."""
         return min(published(f"cylinders-drag-{self.fraction:g}").value, 4*np.pi**2)
 
     def run(self, report: Report, folder: Path) -> Outcome:
@@ -137,7 +137,7 @@ class CylinderDrag(Case):
             **with_errors(drag=measured, published=printed, error=measured/printed - 1)}]})
 
     def method(self, radius: float) -> Stream:
-        """A gas on the points of the variant."""
+        """The gas on the points of the variant."""
         points, body, edges = self.variant.make(self.rows, radius)
         push = published(f"cylinders-drag-{self.fraction:g}").value*ETA*SPEED/self.rows**2
         return Stream(x=points.x, edges=edges, eos=IdealGas(), law=ConstEta(ETA, ETA),
@@ -148,15 +148,15 @@ class CylinderDrag(Case):
 
 
 def sliding(rows: int, eta: float) -> Sheared:
-    """A square box whose images slide, with edges to nearest neighbours."""
+    """A square box between sliding sides, with edges to nearest neighbours."""
     return Sheared(counts=(rows, rows), weight=Lucy.of(h=2.0), eos=IdealGas(), law=ConstEta(eta, eta),
                    rate=DIFFERENCE/rows)
 
 
 def slid(method: Sheared, first: np.ndarray, report: Report) -> tuple[Run, float]:
-    """A run until images have slid BOXES, and its time.
+    """A run until images have slid by BOXES lengths of the box, and its time.
 
-    The step divides the time of one spacing: shares of sliding edges bend between steps.
+    Images slide a spacing in a whole number of steps: the shares of sliding edges have their kinks there.
     """
     spacing = 1/DIFFERENCE
     dt = spacing/np.ceil(spacing/(OF_LIMIT*limit_of(method, first)))
@@ -166,7 +166,7 @@ def slid(method: Sheared, first: np.ndarray, report: Report) -> tuple[Run, float
 
 @dataclass(frozen=True, kw_only=True)
 class SlidingShear(Case):
-    """Homogeneous shear between sliding sides, from the exact profile on, with heating by friction."""
+    """Homogeneous shear between sliding sides, started from the exact profile, with frictional heating."""
     rows: int
     eta: float = 0.3
 
@@ -189,13 +189,13 @@ class SlidingShear(Case):
 
 @dataclass(frozen=True, kw_only=True)
 class TurningWave(Case):
-    """A plane wave that the shear turns from k = (1, 1) 2 pi/L to (1, -1) 2 pi/L: exact at low Mach number.
+    """A plane wave that the shear turns from k = (1, 1) 2 pi/L to (1, -1) 2 pi/L, against its exact solution.
 
-    Vorticity decays as exp(-nu int k^2 dt), its wave vector is k_y = k_x (1 - rate t)    [Kelvin 1887]
+    At low Mach number vorticity decays as exp(-nu int k^2 dt) and k_y = k_x (1 - rate t)    [Kelvin 1887]
     """
     rows: int
     eta: float = 0.02/32        # per row: the same Reynolds number at all sizes
-    size: float = 1e-3          # of the wave, so small that its square does not count
+    size: float = 1e-3          # of the wave: its square is negligible
 
     def run(self, report: Report, folder: Path) -> Outcome:
         method = sliding(self.rows, self.eta*self.rows)
@@ -222,7 +222,7 @@ class TurningWave(Case):
 
 
 def without_divergence(v: np.ndarray, rows: int) -> float:
-    """Rms of the part of a velocity (n, 2) that has none; the mean belongs to it."""
+    """Rms of the divergence-free part of a velocity (n, 2), the mean included."""
     waves = np.fft.fft2(v.reshape(rows, rows, 2), axes=(0, 1))/rows**2
     k = np.stack(np.meshgrid(*[np.fft.fftfreq(rows)]*2, indexing="ij"), axis=2)
     k /= np.maximum(np.hypot(*k.T).T, 1e-150)[..., None]

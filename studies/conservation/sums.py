@@ -1,4 +1,4 @@
-"""Long runs from random starts, sums that should stay as they are; runs in numpy in 1D to 3D."""
+"""Long runs from random starts, with the sums that should be conserved; runs in numpy in 1D to 3D."""
 from collections.abc import Callable
 from dataclasses import dataclass
 from math import fsum
@@ -22,20 +22,20 @@ from studies.build.setting import DISORDERS
 from studies.kit.case import Case, Outcome, Report
 
 ROUND_OFF = 2.2e-16     # of a sum: its terms are rounded twice, adding them up is exact
-HARMONICS = 2           # of random starts: two waves to a box at most
-RECORDS = 20            # of a run
+HARMONICS = 2           # highest wave number of random fields, in waves per box
+RECORDS = 20            # number of times that sums of a run are recorded
 WIND = 0.1, -0.05, 0.02
-OF_LIMIT = 0.5          # of the step to its limit
+OF_LIMIT = 0.5          # time step over its stability limit
 EVERYTHING = "mass momentum energy"
 ETA, ZETA, SIZE = 0.1, 0.05, 0.1
-LOOKS = 100             # at runs that lose momentum
+LOOKS = 100             # number of records of runs that lose momentum
 
 #: (state, steps) -> the state after these steps, and how many were done
 Advance = Callable[[np.ndarray, int], tuple[np.ndarray, int]]
 
 
 def smooth(points: Points, size: float, rng: np.random.Generator) -> np.ndarray:
-    """A random field (n,) of rms `size`: long waves of random heights and phases."""
+    """A random field (n,) of rms `size`: long waves with random amplitudes and phases."""
     numbers = np.arange(-HARMONICS, HARMONICS + 1)
     grids = np.meshgrid(*[numbers]*points.d)
     turns = np.stack([grid.ravel() for grid in grids], axis=1)
@@ -48,7 +48,7 @@ def smooth(points: Points, size: float, rng: np.random.Generator) -> np.ndarray:
 
 def random_fields(points: Points, size: float, seed: int,
                   plates: bool = False) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """rho (n,), v (n, d) in a light wind, between plates along these, T (n,)."""
+    """rho (n,), v (n, d) with mean WIND (only along the plates, if any), T (n,)."""
     rng = np.random.default_rng(seed)
     rho, T, *v = (smooth(points, size, rng) for _ in range(2 + points.d))
     wind = np.array(WIND[:points.d])
@@ -58,12 +58,12 @@ def random_fields(points: Points, size: float, seed: int,
 
 
 def exact_sums(V: np.ndarray, state: np.ndarray) -> np.ndarray:
-    """Sums of V times each row, without rounding."""
+    """Sums of V times each row, added up without rounding."""
     return np.array([fsum(V*row) for row in state])
 
 
 def sizes(eos: Any, fields: Fields) -> np.ndarray:
-    """What changes are divided by: mass, sum of |momentum| for each direction, energy."""
+    """Scales of relative changes: mass, sum of |momentum| for each direction, energy."""
     m = fields.rho*fields.V
     squares = (fields.v**2).sum(axis=1)
     momentum = m@np.sqrt(squares)
@@ -73,16 +73,16 @@ def sizes(eos: Any, fields: Fields) -> np.ndarray:
 
 @dataclass(frozen=True, kw_only=True)
 class WatchedRun(Case):
-    """A run from a random start, a row of the table `drift`. scheme : the first word of the row."""
+    """A long run from a random start: a row of the table `drift`. scheme : column of that name."""
     steps: int = 10_000
     seed: int = 1
     scheme: ClassVar[str]
 
     def watched(self, advance: Advance, state: np.ndarray, totals: Callable[[np.ndarray], np.ndarray],
                 sizes: np.ndarray, report: Report, *, records: int = RECORDS, **columns: Any) -> Outcome:
-        """The largest changes of mass, momentum along each axis, energy, and volume if it is among the sums.
+        """Run, and record the largest changes of mass, momentum, energy, and volume if `totals` has it.
 
-        sizes : what these are divided by. columns : that say which run it is, and which sums should stay.
+        sizes : scales that changes are divided by. columns : which run it is, and the sums it claims to keep.
         """
         first, worst = totals(state), np.zeros(len(sizes))
 
@@ -100,7 +100,7 @@ class WatchedRun(Case):
 
 def in_parts(advance: Advance, state: np.ndarray, steps: int, look: Callable[[np.ndarray], None],
              report: Report, records: int) -> int:
-    """Steps done of a run that is looked at after each of so many equal parts."""
+    """Advance in `records` equal parts, with look(state) after each; returns the number of steps done."""
     before = 0
     for part in range(1, records + 1):
         number = steps*part//records - before
@@ -115,7 +115,7 @@ def in_parts(advance: Advance, state: np.ndarray, steps: int, look: Callable[[np
 
 
 def compiled(method: Any, first: np.ndarray) -> Advance:
-    """Steps in the compiled loop, until it diverges, sound in heated gas outruns the step, or points pair."""
+    """Compiled steps, until the run diverges, points overlap, or sound in heated gas outruns the step."""
     dt = OF_LIMIT*limit_of(method, first)
 
     def advance(state: np.ndarray, steps: int) -> tuple[np.ndarray, int]:
@@ -131,7 +131,7 @@ def compiled(method: Any, first: np.ndarray) -> Advance:
 
 
 def in_numpy(method: Any, first: np.ndarray, dt: float, integrator: Any = RK4) -> Advance:
-    """Steps of a scheme in numpy, in place, until it diverges."""
+    """Steps of a scheme in numpy, in place, until the run diverges."""
     stepper = integrator(first.shape, Threads(1))
 
     def advance(state: np.ndarray, steps: int) -> tuple[np.ndarray, int]:
@@ -148,7 +148,7 @@ def in_numpy(method: Any, first: np.ndarray, dt: float, integrator: Any = RK4) -
 
 
 class SmallBox(NamedTuple):
-    """How many points along each axis, range of the weight, seconds a step."""
+    """Number of points along each axis, range of the weight, CPU seconds per step."""
     counts: tuple[int, ...]
     h: float
     cost: float
@@ -161,7 +161,7 @@ SHIFTED = DISORDERS["jittered-0.1"]
 
 @dataclass(frozen=True, kw_only=True)
 class DihDrift(WatchedRun):
-    """Shifted points with exact edges. transport : of `dih`, `mode` its name."""
+    """Long run on jittered points with exact edges. transport : of `dih`, mode : its name."""
     mode: str
     transport: Any
     box: SmallBox
@@ -173,7 +173,7 @@ class DihDrift(WatchedRun):
         return self.steps*self.box.cost
 
     def begun(self) -> tuple[Dih, np.ndarray, Advance]:
-        """The fluid, its random start, steps of RK4."""
+        """The fluid, its random start, and the function that advances it with RK4."""
         points = SHIFTED.make(self.box.counts, SHIFTED.size, self.seed)
         fluid = self.kind(edges=exact(points, Lucy.of(h=self.box.h, d=points.d)), eos=IdealGas(),
                           law=ConstEta(ETA, ETA), zeta=ZETA, transport=self.transport)
@@ -190,7 +190,7 @@ class DihDrift(WatchedRun):
 
 
 def step_limit(fluid: Dih, state: np.ndarray) -> float:
-    """RK4: the fastest sound and the fastest diffusion that the edges know, at the hottest point."""
+    """Stable step of RK4, from the fastest sound and fastest diffusion over the edges, at extreme fields."""
     flow = fluid.flow(state)
     sound, spread = fluid.edges.fastest
     fast = np.sqrt(2*flow.T.max()) + np.sqrt((flow.v**2).sum(axis=1)).max()
@@ -200,10 +200,10 @@ def step_limit(fluid: Dih, state: np.ndarray) -> float:
 
 @dataclass(frozen=True, kw_only=True)
 class OneSided(Dih):
-    """The first point of an edge feels the pressure 2 P_ij, the second 2 P_ji: not symmetric in ij."""
+    """A pressure not symmetric in ij: 2 P_ij acts on the first point of an edge, 2 P_ji on the second."""
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
-        """d(state)/dt, written to `out`: both points get P_ij - P_ji more, instead of one its negative."""
+        """Write d(state)/dt to `out`: P_ij - P_ji is added to the force on both points with the same sign."""
         super().rates(state, out)
         flow, edges = self.flow(state), self.edges
         rho, T, i, j = flow.rho, flow.T, edges.i, edges.j
@@ -216,7 +216,7 @@ class OneSided(Dih):
 
 @dataclass(frozen=True, kw_only=True)
 class Unsymmetric(DihDrift):
-    """Momentum that an unsymmetric pressure loses on a line, until the last look before a run diverged."""
+    """Momentum that an unsymmetric pressure loses on a line, up to the last record before a run diverges."""
     mode: str = "one-sided"
     transport: Any = Pairwise()  # noqa: RUF009 (immutable)
     box: SmallBox = LINE

@@ -1,6 +1,6 @@
-"""Tables of the study conservation, and the rows that follow from others.
+"""Tables of the study conservation, and rows derived from them.
 
-Lengths in spacings a, gas at rho = T = 1, gamma = 2, so that c^2 = 2; `_err` 95 % half widths.
+Lengths in spacings a, gas at rho = T = 1, gamma = 2, so that c^2 = 2; `_err` are half of 95 % intervals.
 """
 from collections.abc import Iterator
 from math import hypot
@@ -69,13 +69,13 @@ ALL = (
              means=RINGS | {"error": ("relative rms error of the velocity without divergence", "")}))
 
 LONG = (16, 24, 32)     # wavelengths from which sound is extrapolated
-LEAST = 3               # sizes of a limit
-WIDE = 4.0              # spacings: a circle of a smaller radius is too coarse a polygon
+LEAST = 3               # least number of sizes for an extrapolation
+WIDE = 4.0              # spacings: the polygon of a smaller circle is too coarse
 DERIVED = Iterator[dict[str, Any]]
 
 
 def derive(tables: Tables) -> Rows:
-    """Derived rows of the study, of the tables there are."""
+    """Rows of the derived tables whose source is among the tables."""
     rows = {}
     for name, source, make in (("long_sound", "moving_sound", long_sound),
                                ("drag_limits", "drag", drag_limits)):
@@ -85,9 +85,9 @@ def derive(tables: Tables) -> Rows:
 
 
 def long_sound(sound: pd.DataFrame) -> DERIVED:
-    """Speeds of long waves: what the weight does to them is proportional to wavelength^-2.
+    """Speeds of infinitely long waves, extrapolated: the error of the weight goes as wavelength^-2.
 
-    The error is the difference of two extrapolations.
+    The error of the limit is the difference of two extrapolations.
     """
     short, middle, long = LONG
     for (motion, weight), group in sound.groupby(["motion", "weight"]):
@@ -101,16 +101,16 @@ def long_sound(sound: pd.DataFrame) -> DERIVED:
 
 
 def extrapolated(speeds: pd.Series, a: int, b: int) -> float:
-    """Speed at 1/wavelength^2 = 0 from two wavelengths."""
+    """Speed at 1/wavelength^2 = 0 from the wavelengths a and b."""
     return float((b*b*speeds[b] - a*a*speeds[a])/(b*b - a*a))
 
 
 def drag_limits(drags: pd.DataFrame) -> DERIVED:
-    """Drags of infinitely fine points."""
+    """Drags extrapolated to infinitely fine points."""
     for (variant, fraction), group in drags[drags["radius"] > WIDE].groupby(["variant", "fraction"]):
         if len(group) >= LEAST:
             rows = group["rows"].to_numpy(float)
-            spacing = rows**-2 if variant == "surface" else 1/rows      # of a true surface, of staircases
+            spacing = rows**-2 if variant == "surface" else 1/rows      # second order; staircases: first
             unsteady = Measured(0.0, group["drag_err"].max())
             limit = fits.line(spacing, group["drag"].to_numpy()).intercept + unsteady
             published = Measured(*group[["published", "published_err"]].iloc[0])

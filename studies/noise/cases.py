@@ -1,6 +1,6 @@
-"""Cases and their tables: noise on points [RR98 Eqs 20-25, 42-44], dissipative particles [Sec. III B]
+"""Cases and tables of the study noise: points [RR98 Eqs 20-25, 42-44], dissipative particles [Sec. III B]
 
-Units: spacing 1, rho = T = 1, ideal gas, C_V = 1.
+Units of points: spacing 1, rho = T = 1, ideal gas, C_V = 1.
 """
 from collections.abc import Iterator
 from itertools import product
@@ -37,21 +37,21 @@ FORMULAS = {
     "dissipative particles, viscosity doubled": partners.viscosity,
     "dissipative particles, viscosity single": partners.viscosity_single}
 
-#: of dissipative particles
+#: integrators of dissipative particles, and time steps
 GOOD = (GrootWarren, GrootWarren65, VelocityVerlet, Shardlow, KickDriftFrictionDriftKick)
 LIQUID = (0.01, 0.02, 0.03, 0.04, 0.06, 0.08)
-HUNDRED = (100/3)**(1/3)                   # side of a box of the 100 particles that print has
-MANUAL = 15.8       # particles in rc^3 of the example in the manual of LAMMPS, 4 at rc = 1.58, A = 18.75
-LONG = 12_000       # steps of a run: its error of kT over dt is what counts, which falls as dt grows
+HUNDRED = (100/3)**(1/3)    # side of a box of 100 particles, as in the example of Allen & Tildesley
+MANUAL = 15.8       # particles in rc^3 in the example of LAMMPS's manual: density 4, rc = 1.58, A = 18.75
+LONG = 12_000       # steps at any dt: the statistical error of kT over dt matters, and it falls as dt grows
 
 
 def cases(size: str) -> list[Case]:
-    """`quick` has fewer point sets, shorter batches, small boxes and three steps."""
+    """Cases of a size; `quick` has fewer point sets, shorter batches, small boxes and three time steps."""
     return quick() if size == "quick" else paper()
 
 
 def quick() -> list[Case]:
-    """Some of each kind."""
+    """Short cases of each kind."""
     return [
         *formulas(), *algebra(("lattice", "jittered-0.3"), {2: (8, 8)}), *printed(), *steps(),
         BelowOnset(rows=6, parts=BELOW),
@@ -63,7 +63,7 @@ def quick() -> list[Case]:
 
 
 def paper() -> list[Case]:
-    """All; what was run longer because a shorter run left it open says so."""
+    """All cases."""
     return [
         *formulas(), *algebra(KINDS, {1: (20,), 2: (10, 12), 3: (5, 5, 6)}), *printed(), *steps(),
         *(BelowOnset(rows=rows, parts=BELOW) for rows in (8, 12, 16)),
@@ -77,12 +77,12 @@ def paper() -> list[Case]:
 
 
 def formulas() -> Iterator[Case]:
-    """Arithmetic."""
+    """Printed formulas, evaluated by arithmetic."""
     return (Formula(name=name, value=value) for name, value in FORMULAS.items())
 
 
 def algebra(kinds: tuple[str, ...], counts: dict[int, tuple[int, ...]]) -> Iterator[Case]:
-    """Partners on every maker, kind of points and dimension."""
+    """Exact partners on every edge maker, kind of points and dimension."""
     for (name, maker), kind, d in product(MAKERS.items(), kinds, counts):
         if not (name == "delaunay" and (d == 1 or (d == 3 and kind == "lattice"))):
             h = 2.7 if d < 3 else 2.4
@@ -90,7 +90,7 @@ def algebra(kinds: tuple[str, ...], counts: dict[int, tuple[int, ...]]) -> Itera
 
 
 def printed() -> Iterator[Case]:
-    """Printed noise by waves."""
+    """Variance of printed noise in waves."""
     places = ((1, 1.5), (2, 1.2), (2, 2.0), (2, 3.0))
     for (equation, term), doubled, (d, h) in product(PRINTED, (False, True), places):
         if not (term == "eta" and d == 1):      # there is no shear on a line
@@ -98,28 +98,28 @@ def printed() -> Iterator[Case]:
 
 
 def steps() -> Iterator[Case]:
-    """All integrators, waves of 15 to 300 spacings."""
+    """Steps of all integrators, waves of 15 to 300 spacings."""
     for k in (0.02, 0.1, 0.4):
         yield from (Steps(integrator=name, wavenumber=k, dt=DT) for name in INTEGRATORS)
         yield from (MovingSteps(wavenumber=k, dt=DT, both=both) for both in (True, False))
 
 
 def temperatures(dts: tuple[float, ...], *, side: float, steps: int) -> Iterator[Fluid]:
-    """All integrators and steps."""
+    """Temperatures of dissipative particles with all integrators and time steps."""
     for integrator, dt in product((TwoStep, *GOOD), dts):
         yield AtRest(integrator=integrator, dt=dt, side=side, time=steps*dt)
 
 
 def long_runs() -> Iterator[Fluid]:
-    """The usual step, for the time that decided whether kT is off by 1 %: 500 did for one, 240 for none."""
+    """Long runs with the usual dt, long enough to tell an error of 1 % in kT: 240 was too short for all."""
     for integrator in GOOD:
         time = 500.0 if integrator is KickDriftFrictionDriftKick else 1500.0
         yield LongRun(integrator=integrator, time=time)
 
 
 def thermal(densities: tuple[float, ...], seeds: tuple[int, ...], time: float) -> Iterator[Case]:
-    """Energies of their own: unlike temperatures, waves at conductivities far above what motion carries."""
-    # repulsion makes the ratio of temperatures fluctuate longer
+    """Particles with internal energies: two temperatures that meet; conduction far above that by motion."""
+    # with repulsion the ratio of temperatures is correlated for longer
     yield from (Shared(a=a, dt=0.02, time=part*time) for a, part in ((0.0, 1), (25.0, 8)))
     for rho, seed in product(densities, seeds):
         yield Conduction(rho=rho, a=25.0 if rho < MANUAL else 29.6, given=10.0, seed=seed)
@@ -127,7 +127,7 @@ def thermal(densities: tuple[float, ...], seeds: tuple[int, ...], time: float) -
 
 # --- tables -------------------------------------------------------------------------------------
 
-#: dissipative particles have units of their own, mass, rc and kT of one
+#: columns of dissipative particles, in units of mass, rc and kT
 HOT = {"dt": ("time step", "rc (m/kT)^(1/2)"), "time": ("time of the run", "rc (m/kT)^(1/2)"),
        "n": ("number of particles", ""), "P": ("pressure", "kT/rc^3"),
        "kinetic": ("kT from velocities over that asked for", ""),

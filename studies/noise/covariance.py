@@ -1,12 +1,12 @@
-"""Steady covariances of linear fluctuations about a flow: Lyapunov solves, in time and of steps
+"""Steady covariances of linear fluctuations about a flow, from Lyapunov equations in time and of steps
 
     dx = J x dt + B dW, Q = B B^T            J C + C J^* + Q = 0                 [RR98 Eqs 20-25]
     x(t + dt) = A x(t) + noise of variance Q_dt       C = A C A^* + Q_dt                 [RR98 Eq. 40]
 
-What is conserved (rows L with L J = 0, L Q = 0) keeps its value: covariances are those at fixed sums.
+Conserved sums (rows L with L J = 0, L Q = 0) keep their values: covariances are those at fixed sums.
 
-About a layer heated from below the flow is linearised by differences of the rates that run, noise is that of
-`fluctuating`. Boltzmann's k is 1: linear fluctuations are proportional to it.
+A layer heated from below is linearised by differences of the method's own rates, with the noise of
+`fluctuating`. Boltzmann's k is 1: covariances of linear fluctuations are proportional to it.
 """
 from collections.abc import Callable, Iterator
 from typing import Any, NamedTuple
@@ -28,15 +28,15 @@ from studies.build.fixed import Scheme, layer
 from studies.kit.case import Case, Report
 from studies.kit.table import Row
 
-#: of the size of J: rates above its negative belong to modes that do not decay; differences leave 1e-12
+#: decay rates below this fraction of the largest |J| count as none; differences leave 1e-12
 UNDAMPED = 1e-10
 
 
 def waves(columns: np.ndarray, counts: tuple[int, int], k: float) -> np.ndarray:
-    """The block (m ny, m ny) of waves exp(ikx), k per spacing, of a matrix on a lattice uniform along x.
+    """The block (m ny, m ny) for waves exp(ikx) of a matrix on a lattice of spacing 1, uniform along x.
 
-    columns : its (m nx ny, m ny) columns of the points at x = 0, with point (x, y) numbered x ny + y, m
-    fields. nx is odd and more than twice the reach of the matrix: then k may be any number.
+    columns : those (m nx ny, m ny) of the points at x = 0, for m fields and point (x, y) numbered x ny + y.
+    nx is odd and more than twice the reach of the matrix: then any k will do.
     """
     nx, ny = counts
     fields = columns.shape[1]//ny
@@ -46,25 +46,25 @@ def waves(columns: np.ndarray, counts: tuple[int, int], k: float) -> np.ndarray:
 
 
 def steady(J: np.ndarray, Q: np.ndarray, conserved: np.ndarray | None = None) -> np.ndarray:
-    """C with J C + C J^* + Q = 0, at fixed rows `conserved` (q, N). ArithmeticError: no decay."""
-    # columns of all that leaves these alone
+    """C with J C + C J^* + Q = 0, at fixed rows `conserved` (q, N). ArithmeticError: a mode lasts."""
+    # columns: a basis of the states at which the conserved sums are zero
     Z = np.eye(len(J)) if conserved is None else null_space(conserved)
     J, Q = Z.conj().T@J@Z, Z.conj().T@Q@Z
     check_decay(np.linalg.eigvals(J).real, UNDAMPED*np.abs(J).max())
     C = solve_continuous_lyapunov(J, -Q)
-    # once more for what the first solve left
+    # iterative refinement: solve again for the residual
     C += solve_continuous_lyapunov(J, -(Q + J@C + C@J.conj().T))
     return Z@C@Z.conj().T
 
 
 class Step(NamedTuple):
-    """One time step: x becomes A x, and noise of covariance Q is added."""
+    """One time step: x -> A x + noise of covariance Q."""
     A: np.ndarray
     Q: np.ndarray
 
 
 def steady_of_steps(step: Step, conserved: np.ndarray | None = None) -> np.ndarray:
-    """C = A C A^* + Q, at fixed rows `conserved`. Raises ArithmeticError: a mode does not decay."""
+    """C with C = A C A^* + Q, at fixed rows `conserved`. Raises ArithmeticError: a mode does not decay."""
     Z = np.eye(len(step.A)) if conserved is None else null_space(conserved)
     A, Q = Z.conj().T@step.A@Z, Z.conj().T@step.Q@Z
     check_decay(np.abs(np.linalg.eigvals(A)) - 1, UNDAMPED)
@@ -74,7 +74,7 @@ def steady_of_steps(step: Step, conserved: np.ndarray | None = None) -> np.ndarr
 
 
 def check_decay(rates: np.ndarray, least: float) -> None:
-    """Refuse modes that grow or stay."""
+    """Raise ArithmeticError if a mode grows or stays."""
     if not (worst := rates.max()) < -least:
         raise ArithmeticError(f"{np.count_nonzero(rates >= -least)} modes do not decay, the fastest grows at "
                               f"{worst:.3g}: take a share of transport along edges or an odd number of "
@@ -87,14 +87,14 @@ def forward_euler(J: np.ndarray, Q: np.ndarray, dt: float) -> Step:
 
 
 def crank_nicolson(J: np.ndarray, Q: np.ndarray, dt: float) -> Step:
-    """(1 - dt J/2) x' = (1 + dt J/2) x + B dW: the covariance of continuous time, whatever the step."""
+    """(1 - dt J/2) x' = (1 + dt J/2) x + B dW: has the covariance of continuous time at any step."""
     one = np.eye(len(J))
     inverse = np.linalg.inv(one - dt/2*J)
     return Step(inverse@(one + dt/2*J), dt*inverse@Q@inverse.conj().T)
 
 
 def three_stage(J: np.ndarray, Q: np.ndarray, dt: float) -> Step:
-    """Three Euler steps, averaged; each has the noise W_A + beta W_B of its own beta."""
+    """Three averaged Euler steps, each with noise W_A + beta W_B of its beta: see `thermal.ThreeStage`."""
     one = np.eye(len(J))
     euler, A, of_A, of_B = one + dt*J, one, 0*one, 0*one
     for old, beta in zip(OLD, BETAS, strict=True):
@@ -112,7 +112,7 @@ INTEGRATORS: dict[str, Callable[[np.ndarray, np.ndarray, float], Step]] = {
 
 def transport(edges: Edges, share: float, eta: float, zeta: float, kappa: float,
               T: Any) -> tuple[Partners, Partners]:
-    """Viscosity and conduction with their noise, a share of it along edges: of momenta and of energies."""
+    """Dissipation and noise of momenta and of energies, a share of them along edges, the rest nested."""
     stress = fluctuating.stress(edges, eta, zeta, T)
     heat = fluctuating.heat(edges, kappa, T**2)
     if share == 0:
@@ -123,7 +123,7 @@ def transport(edges: Edges, share: float, eta: float, zeta: float, kappa: float,
 
 
 def noise(V: np.ndarray, of_momenta: Any, of_energies: Any) -> sparse.csr_array:
-    """Q (N, N) of a state of densities at rest from those of momenta and energies."""
+    """Q (N, N) of densities (rho, p, eps) at rest, from Q (d n, d n) of momenta and Q (n, n) of energies."""
     n, d = len(V), of_momenta.shape[0]//len(V)
     per = sparse.diags_array(np.tile(1/V, 2 + d))
     Q = sparse.block_diag([sparse.csr_array((n, n)), of_momenta, of_energies])
@@ -133,13 +133,13 @@ def noise(V: np.ndarray, of_momenta: Any, of_energies: Any) -> sparse.csr_array:
 # --- a layer heated from below --------------------------------------------------------------------------
 
 LATTICE = Scheme("fixed-lattice")
-K_HEIGHT = 3.117        # wave number times height of what grows first
+K_HEIGHT = 3.117        # wave number times height of the mode that grows first
 
 
 class BelowOnset(Case, table="onset", same="rows"):
-    """The motionless layer of KHP95 between plates, `rows` high: waves k = 3.117/L on the way to onset.
+    """Fluctuations of KHP95's motionless layer between plates, `rows` high, below onset: waves k = 3.117/L.
 
-    velocity : the variance of vertical velocities, which is 1 in equilibrium.
+    Column velocity: variance of vertical velocities, which is 1 in equilibrium.
     """
     rows: int
     parts: tuple[float, ...]        # 1 - Ra/Ra_c
@@ -153,14 +153,14 @@ class BelowOnset(Case, table="onset", same="rows"):
 
 
 def onset(rows: int) -> float:
-    """Ra_c, where the slowest mode neither grows nor decays."""
+    """Ra_c: the Rayleigh number where the slowest mode neither grows nor decays."""
     def rate(ra: float) -> float:
         return float(np.linalg.eigvals(matrices(rows, ra)[0]).real.max())
     return float(brentq(rate, 1000, 3000, xtol=1e-6))
 
 
 def matrices(rows: int, ra: float) -> tuple[np.ndarray, np.ndarray]:
-    """J and Q of the waves at one Rayleigh number."""
+    """J and Q of the waves k = 3.117/L at one Rayleigh number."""
     counts, k = (5, rows), K_HEIGHT/rows
     scene = RayleighBenard(ra=ra, L=float(rows), aspect=5/rows)
     fluid = layer(scene, LATTICE, 1)
@@ -178,8 +178,8 @@ def matrices(rows: int, ra: float) -> tuple[np.ndarray, np.ndarray]:
 def layer_noise(fluid: Layer, T: np.ndarray) -> sparse.csr_array:
     """Q of a layer at rest with transport along edges; edges to images have the temperature of their plate.
 
-    Images have -v and 2 T_w - T: friction and heat over an edge to one are k (v_i + v_parent), the noise that
-    of its two points alike.
+    Images have -v and 2 T_w - T: friction over an edge to one is -k (v_i + v_parent), heat alike. Point and
+    parent therefore get the same noise.
     """
     edges, beyond, law, n = fluid.edges, fluid.beyond, fluid.law, len(T)
     rows = np.concatenate([beyond.i, beyond.parent])

@@ -1,4 +1,4 @@
-"""Dissipative particles: kT and pressure, the special case    [RR98 Sec. III B]
+"""Dissipative particles: kT, pressure, and whether RR98's equations contain them    [RR98 Sec. III B]
 
 The fluid has a = 25, rho = 3, gamma = 4.5, rc = kT = 1, unit masses, in a periodic cube.
 """
@@ -25,12 +25,12 @@ from studies.kit.stats import Measured, mean, with_errors
 from studies.kit.table import Row
 
 RHO = 3.0
-SETTLE = 10.0       # time: some twenty times of friction, 1/(rho gamma int w^2/d) = 0.5, and of rearrangement
-RECORD = 0.1        # between records: less than any correlation that counts
+SETTLE = 10.0       # some twenty friction times, 1/(rho gamma int w^2/d) = 0.5, and of rearrangement
+RECORD = 0.1        # time between records: less than any correlation time that matters
 
 
 class Fluid(Case, same="integrator side dt time seed"):
-    """Common parameters: a periodic cube of `side`, steps of dt for `time` after settling."""
+    """Base of runs of dissipative particles: periodic cube of `side`, steps dt, `time` after settling."""
     integrator: type
     dt: float = 0.02
     side: float = 8.0
@@ -43,11 +43,11 @@ class Fluid(Case, same="integrator side dt time seed"):
         return 5e-7*RHO*self.side**3*steps      # records included
 
     def method(self) -> Dpd:
-        """Particles in the cube."""
+        """The particles in the cube."""
         return Dpd(box=(self.side,)*3, noise=Uniform(self.seed), integrator=self.integrator)
 
     def settled(self, method: Dpd) -> np.ndarray:
-        """From anywhere: first by splitting, which knows its kT best, then by the integrator itself."""
+        """Equilibrated state from random places, first with Shardlow's splitting, whose kT is most exact."""
         first = replace(method, integrator=Shardlow, noise=Uniform(self.seed + 1000))
         start = first.random_start(RHO, self.seed)
         state = run(first, start, Plan(dt=0.02, steps=round(SETTLE/0.02))).by_id()
@@ -55,7 +55,7 @@ class Fluid(Case, same="integrator side dt time seed"):
         return run(then, state, Plan(dt=self.dt, steps=round(SETTLE/self.dt))).by_id()
 
     def recorded(self, method: Dpd, report: Report, **series: Callable) -> Run:
-        """A run of the settled fluid with records every `RECORD`."""
+        """A run of the equilibrated fluid with records every `RECORD`."""
         every = max(1, round(RECORD/self.dt))
         records = round(self.time/self.dt/every)
         plan = Plan(dt=self.dt, steps=records*every, every=every, series=series)
@@ -63,13 +63,13 @@ class Fluid(Case, same="integrator side dt time seed"):
 
     @staticmethod
     def row(done: Run, **measured: Measured) -> Row:
-        """What a run cost, and means with their errors."""
+        """Columns with the CPU time of a run, and means with their errors."""
         return {"n": done.state.shape[1], "cpu_s": done.cpu_s, "compile_s": done.compile_s,
                 **with_errors(**measured)}
 
 
 class AtRest(Fluid, table="states"):
-    """kT of velocities and of positions, pressure."""
+    """Kinetic and configurational kT, and pressure, at one time step."""
 
     def measure(self, report: Report) -> Iterator[Row]:
         done = self.recorded(self.method(), report, kinetic=kinetic_temperature, P=pressure,
@@ -78,9 +78,9 @@ class AtRest(Fluid, table="states"):
 
 
 class LongRun(Fluid, table="long"):
-    """The same for a long time; the configurational kT is one ratio of means, which is not off by 1/n.
+    """The same from a long run; configurational kT is a ratio of means, which has no bias of 1/n.
 
-    The pressure has rho kT with the kT that is asked for, as that of Allen & Tildesley has.
+    The pressure contains rho kT with the given kT, as in Allen & Tildesley, not with the measured one.
     """
 
     def measure(self, report: Report) -> Iterator[Row]:
@@ -99,18 +99,18 @@ class LongRun(Fluid, table="long"):
 
 
 def form() -> float:
-    """Largest difference between the forces that run and RR98's, over the largest; 2D and 3D."""
+    """Largest difference of the compiled forces from RR98's, over the largest force; in 2D and 3D."""
     return max(special(d) for d in (2, 3))
 
 
 def special(d: int, dt: float = 0.02) -> float:
     """The same in d dimensions, with the noise of the first step.
 
-    Eq. 49 with Eq. 51, B = 0, and the zeta term of Eq. 42 beside it, its brackets doubled as in Eq. 35, is
+    Eq. 49 with Eq. 51, B = 0, and the zeta term of Eq. 42, its brackets doubled as in Eq. 35, is
 
         force on i = sum_j w e_ij [P_ij - A e.(v_i - v_j) - 2 sqrt(2 kT zeta V/dt) Y_ij],    W dV = w
 
-    With w = 1 - r/rc, A = gamma w, 8 zeta V = 2 gamma these are Groot and Warren's; Y and -Y are alike.
+    With w = 1 - r/rc, A = gamma w, 8 zeta V = 2 gamma it is Groot and Warren's; the sign of Y is arbitrary.
     """
     method = Dpd(box=(3.5,)*d)
     state, w, e = neighbours(method)
@@ -141,7 +141,7 @@ def neighbours(method: Dpd) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 def unmodified() -> float:
-    """|Q - 2 kT Gamma|/|Q|, friction of the weight of the noise, not its square, as much energy in all."""
+    """|Q - 2 kT Gamma|/|Q| where friction has the weight w of the noise, not w^2, and the same trace as Q."""
     _, w, e = neighbours(Dpd(box=(3.0, 3.0, 3.0)))
     Q, friction = blocks(w**2, e), blocks(w, e)
     due = friction*np.trace(Q)/np.trace(friction)
@@ -149,7 +149,7 @@ def unmodified() -> float:
 
 
 def blocks(weight: np.ndarray, e: np.ndarray) -> np.ndarray:
-    """(d n, d n) of forces weight e e.(v_i - v_j) between the points of each pair."""
+    """Matrix (d n, d n) of the pair forces weight e e.(v_i - v_j)."""
     d, n = e.shape[:2]
     pairs = weight*e[:, None]*e[None]                       # (d, d, n, n)
     own = pairs.sum(axis=3)[..., None]*np.eye(n)

@@ -1,6 +1,6 @@
 """Noise and dissipation as matrices: on which points is Q = 2 kT Gamma?    [RR98 Eqs 22-25, 42-44]
 
-States of a gas about rho = T = 1, C_V = 1 are densities (rho, p, eps); Boltzmann's k is 1.
+The gas is at rho = T = 1 with C_V = 1; its state is densities (rho, p, eps); Boltzmann's k is 1.
 """
 from collections.abc import Callable, Iterator
 from dataclasses import replace
@@ -25,7 +25,7 @@ KT = 0.7
 
 
 class Partnership(Case, table="partners", same="maker points"):
-    """Kinds of noise that are to be exact, on one set of points."""
+    """Mismatch of noise and dissipation on one set of points, for every kind of noise meant to be exact."""
     maker: Callable
     points: Disorder
     counts: tuple[int, ...]
@@ -36,14 +36,14 @@ class Partnership(Case, table="partners", same="maker points"):
         points = self.points.make(self.counts, self.points.size, self.seed)
         try:
             edges = self.maker(points, WendlandC2.of(h=self.h, d=points.d))
-        except ArithmeticError:         # these points have no such edges: see the study operators
+        except ArithmeticError:         # no such edges exist on these points: see the study operators
             return
         for name, pair in kinds(edges, self.seed).items():
             yield {"d": points.d, "noise": name, "mismatch": mismatch(pair, 2*KT), "sums": sums(edges, pair)}
 
 
 def kinds(edges: Edges, seed: int) -> dict[str, Partners]:
-    """Noise by name, coefficients random by factors of five; along edges where none conducts below zero."""
+    """Noise by name, coefficients random by factors of five; along edges if no conductance is negative."""
     rng = np.random.default_rng(seed)
     eta, kappa = rng.uniform(0.2, 1, (2, edges.n))
     zeta = 0.9*(1 + 2/edges.d)*rng.uniform(0, 1, edges.n)*eta
@@ -61,7 +61,7 @@ def kinds(edges: Edges, seed: int) -> dict[str, Partners]:
 
 
 def sums(edges: Edges, pair: Partners) -> float:
-    """Largest sum of the noise over all points, over its largest part."""
+    """Largest sum of the noise over all points, over the largest element of B."""
     components = pair.B.shape[0]//edges.n
     of_all = np.kron(np.eye(components), np.ones(edges.n))
     return float(np.abs(of_all@pair.B).max()/abs(pair.B).max())
@@ -82,15 +82,15 @@ class Formula(Case, table="formulas", same="name"):
 def other_partner() -> float:
     """|Q - 2 kT Gamma| of the eta term of Eq. 42 on random points, Gamma along edges, trace factor 2/d."""
     edges = delaunay(random((8, 8), 0.5, 1), None)
-    edges = replace(edges, k=np.maximum(edges.k, 1e-3))     # any positive number: A makes it up
+    edges = replace(edges, k=np.maximum(edges.k, 1e-3))     # any positive number: B has its inverse
     V, S2 = fluctuating.ends(edges, edges.V), (edges.S**2).sum(axis=1)
-    B, kT = 0.3*S2/(2*V)/edges.k, np.ones(len(S2))          # 2D: S S (1 - 2/d) vanishes, A = 0
+    B, kT = 0.3*S2/(2*V)/edges.k, np.ones(len(S2))          # in 2D A = 0, as S S (1 - 2/d) vanishes
     pair = fluctuating.printed_stress(edges, 0.3, 0.0, 1.0, doubled=False, trace=1.0)
     return mismatch(Partners(fluctuating.between(edges, 0*B, B, kT).Gamma, pair.B), 2.0)
 
 
 def half_spacing() -> float:
-    """Variance of the literal noise over its due at the spacing 1/2 over that at 1, 2D: a missing volume."""
+    """Variance of Eq. 42 read literally, over its due: at spacing 1/2 over that at 1; a volume is missing."""
     def ratio(a: float) -> float:
         edges = renormalised(lattice((8, 8), a), Lucy.of(h=1.5*a))
         pair = fluctuating.printed_stress(edges, 0.3, 0.1, 1.0, doubled=True, volume=False)
@@ -99,30 +99,30 @@ def half_spacing() -> float:
 
 
 def half_step() -> float:
-    """<u u> with increments of unit variance whatever the step, at dt/2 over that at dt; u decays."""
+    """<u u> of a decaying u driven by increments of unit variance at any step: at dt/2 over that at dt."""
     def variance(dt: float) -> float:
-        step = crank_nicolson(-np.eye(1), dt*np.eye(1), dt)     # dt X is noise of the variance dt per time
+        step = crank_nicolson(-np.eye(1), dt*np.eye(1), dt)     # dt X is noise of variance dt per time
         return float(steady_of_steps(step)[0, 0])
     return variance(0.5)/variance(1.0)
 
 
 def trace_2d() -> float:
-    """Variance of the trace of X in 2D, over d^2: noise of a bulk viscosity that is not there."""
+    """Variance of the trace of X in 2D, over d^2: noise of a bulk viscosity that the fluid does not have."""
     tensor = fluctuating.shear(2, 2/3).reshape(2, 2, 2, 2)
     return float(np.einsum("aacc->", tensor))/4
 
 
 def viscosity(rho: float = 3.0, gamma: float = 4.5) -> float:
-    """Bulk viscosity that Eq. 42, doubled, needs for the noise of dissipative particles, over their own.
+    """Bulk viscosity that Eq. 42, doubled, gives the noise of dissipative particles, over that of friction.
 
-    RR98's W, of which the moment int W r dV is 3, is c w, c = 15/pi. Noise, with W dV = c w V and the volume
-    that Eq. 42 lacks: 4 c^2 w^2 2 kT zeta V^3 is 2 gamma kT w^2; V = 1/rho. Friction, by the moments of Eq.
-    51: zeta = (5/3) eta, eta = 2 pi gamma rho^2/1575.
+    RR98's W = c w has c = 15/pi, as int W r dV = 3. Noise, with W dV = c w V and the volume V = 1/rho which
+    Eq. 42 lacks: 4 c^2 w^2 2 kT zeta V^3 = 2 gamma kT w^2. Friction, by the moments of Eq. 51: zeta = (5/3)
+    eta, eta = 2 pi gamma rho^2/1575.
     """
     noise = gamma*rho**3/(2*15/np.pi)**2
     return noise/(5/3*2*np.pi*gamma*rho**2/1575)
 
 
 def viscosity_single() -> float:
-    """The same of brackets as in Eq. 22."""
+    """The same with brackets as in Eq. 22, not doubled."""
     return 4*viscosity()

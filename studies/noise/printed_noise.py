@@ -1,8 +1,8 @@
-"""What printed noise and steps do to waves, and current amplitudes to heat    [RR98 Eqs 23, 25, 40-43]
+"""Fluctuations from printed noise, from finite steps, from current amplitudes    [RR98 Eqs 23, 25, 40-43]
 
-One wave of the gas on a line has density, velocity, temperature, with the symbols of the lattice; each has
-the variance 1 in equilibrium. Steps are in units of nu/c^2, c the adiabatic speed: that limits forward Euler,
-not k.
+One wave of the gas on a line has a density, a velocity and a temperature, each of variance 1 in equilibrium;
+derivatives are symbols of the lattice. Steps are in units of nu/c^2, with the adiabatic speed c: that limits
+forward Euler, not k.
 """
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any
@@ -26,13 +26,13 @@ from studies.noise.covariance import INTEGRATORS, Step, steady_of_steps
 from studies.noise.partners import ETA, KAPPA, KT
 from studies.noise.sampling import BATCHES, check_length
 
-WAVES = 32          # spacings of the longest wave
+WAVES = 32          # length of the longest wave in spacings
 
 
 class PrintedWaves(Case, table="printed", same="equation term reading d h"):
     """Variance of printed noise over its due, 2 kT Gamma of Eq. 37 or 38, on a lattice; T = 0.7.
 
-    term : "eta" across k, "zeta" along k, "kappa". h 1.5 in 1D and 1.2 in 2D: nearest neighbours.
+    term : "eta" (momentum across k), "zeta" (along k), "kappa". h = 1.5 in 1D, 1.2 in 2D: nearest neighbours.
     """
     equation: int
     term: str
@@ -42,12 +42,12 @@ class PrintedWaves(Case, table="printed", same="equation term reading d h"):
 
     @property
     def reading(self) -> str:
-        """Of the bracket: pi_ij + pi_ji (Eq. 35), or pi_ij (Eq. 22)."""
+        """Reading of the bracket: "doubled", pi_ij + pi_ji (Eq. 35), or "single", pi_ij (Eq. 22)."""
         return "doubled" if self.doubled else "single"
 
     @property
     def bulk(self) -> float:
-        """The zeta term of Eq. 23 has twice the variance of Eq. 42's."""
+        """Factor of the zeta term's variance: twice as large in Eq. 23 as in Eq. 42."""
         return 2.0 if self.equation == 23 else 1.0
 
     @property
@@ -67,7 +67,7 @@ class PrintedWaves(Case, table="printed", same="equation term reading d h"):
             yield {"wavenumber": k, "ratio": ratio, "predicted": self.predicted(k)}
 
     def noise(self, edges: Edges) -> tuple[Partners, float]:
-        """The printed one, and 2 kT or 2 k T^2."""
+        """The printed noise with its dissipation, and the factor 2 kT (momenta) or 2 k T^2 (energies)."""
         if self.term == "kappa":
             T, of25 = np.full(edges.n, KT), self.equation == 25
             return fluctuating.printed_heat(edges, KAPPA, 1.0, T, doubled=self.doubled, of25=of25), 2*KT**2
@@ -75,7 +75,7 @@ class PrintedWaves(Case, table="printed", same="equation term reading d h"):
         return fluctuating.printed_stress(edges, eta, zeta, KT, doubled=self.doubled, bulk=self.bulk), 2*KT
 
     def predicted(self, k: float) -> float:
-        """From sums over the lattice: c^2 sum w^2 (1 - cos k.r) g/(sum w e_x sin k.r)^2, c = 2 if doubled.
+        """Ratio by lattice sums: c^2 sum w^2 (1 - cos k.r) g/(sum w e_x sin k.r)^2, c = 2 if doubled, else 1.
 
         g = 2 [1 + (1 - 2/3) e_y^2] for eta, e_x^2 for zeta (2 e_x^2 of Eq. 23), 1/T for kappa (2 of Eq. 25).
         """
@@ -92,7 +92,7 @@ class PrintedWaves(Case, table="printed", same="equation term reading d h"):
 
 
 def lattice_weights(h: float, d: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Places r (m, d) about a point of the unit lattice, |r| (m,), and Lucy's weights with sum w |r| = d."""
+    """r (m, d) to a point's neighbours on the unit lattice, |r| (m,), Lucy's weights with sum w |r| = d."""
     weight = Lucy.of(h=h, d=d)
     r = neighbours(weight, d)
     size = np.sqrt((r**2).sum(axis=1))
@@ -106,7 +106,7 @@ def form(M: Any, wave: np.ndarray) -> float:
 
 
 def line_symbols(k: float) -> tuple[float, float]:
-    """(slope, Laplacian) that a line of unit spacing makes of k and k^2 with h = 2, pairwise."""
+    """Symbols (slope, Laplacian) of a line of unit spacing with h = 2, k and k^2 in the continuum."""
     r, size, w = lattice_weights(2.0, 1)
     x = r[:, 0]
     slope = (w*np.sign(x))@np.sin(k*x)
@@ -115,14 +115,14 @@ def line_symbols(k: float) -> tuple[float, float]:
 
 
 def gas(k: float) -> tuple[np.ndarray, np.ndarray]:
-    """J and Q of (rho, u, T): ideal gas, C_V = 1, C = 1 in equilibrium, since J + J^* = -Q."""
+    """J and Q of a wave (rho, u, T) of the ideal gas, C_V = 1; equilibrium has C = 1, since J + J^* = -Q."""
     s, lap = line_symbols(k)
     J = waves(s, ETA*lap, KAPPA*lap, 0.0).matrix
     return J, -(J + J.conj().T).real
 
 
 def stable(step: Callable[[float], tuple], times: Iterable[float]) -> Iterator[tuple[float, np.ndarray]]:
-    """Those of some steps dt that have a steady covariance, with it."""
+    """(dt, steady covariance) of the time steps that have one."""
     for dt in times:
         try:
             yield dt, steady_of_steps(*step(dt)).real
@@ -131,13 +131,13 @@ def stable(step: Callable[[float], tuple], times: Iterable[float]) -> Iterator[t
 
 
 class Steps(Case, table="steps", same="integrator wavenumber"):
-    """What one integrator makes of one wave; dt in eta/(rho c^2), c^2 = 1 isothermal, 2 of the gas."""
+    """Covariances of one wave by one integrator; dt in eta/(rho c^2), c^2 = 1 isothermal, 2 of the gas."""
     integrator: str
     wavenumber: float
     dt: tuple[float, ...]
 
     def measure(self, report: Report) -> Iterator[Row]:
-        """One row a stable step."""
+        """One row per stable time step."""
         integrator, (J, Q) = INTEGRATORS[self.integrator], gas(self.wavenumber)
         for fluid, size, c2 in (("isothermal", 2, 1), ("gas", 3, 2)):
             matrices = J[:size, :size], Q[:size, :size]
@@ -147,11 +147,11 @@ class Steps(Case, table="steps", same="integrator wavenumber"):
 
 
 class MovingSteps(Case, table="steps", same="wavenumber"):
-    """Points that move as Eq. 39 says, isothermal: density, velocity and displacement of one wave.
+    """Isothermal points that move by Eq. 39: density rho, velocity u and displacement x of one wave.
 
-    As printed, the constant volume lets displacements x push back with 2 P grad(n dV): u' = -i s rho - 2 s^2
-    x - l u, besides rho' = -i s u, x' = u. With rho = -i s x, as it stays from rest on, stiffness is (1 + 2)
-    c_T^2; <u u> is 1. both : the positions by Eq. 40 as well, not by Eq. 41.
+    At the constant volume that is printed, x adds the force 2 P grad(n dV): u' = -i s rho - 2 s^2 x - l u,
+    besides rho' = -i s u, x' = u. From rest rho = -i s x, and the stiffness is (1 + 2) c_T^2; <u u> is 1.
+    both : positions by Eq. 40, too, not by Eq. 41.
     """
     wavenumber: float
     dt: tuple[float, ...]
@@ -164,7 +164,7 @@ class MovingSteps(Case, table="steps", same="wavenumber"):
                    "error": abs(C[1, 1] - 1)}
 
     def step(self, of_limit: float) -> tuple[Step, np.ndarray]:
-        """One step, and what it keeps: rho + i s x, less i s dt u where x moves with the new velocity."""
+        """One step, and the row that it conserves: rho + i s x, less i s dt u if x moves with the new u."""
         s, lap = line_symbols(self.wavenumber)
         l, dt = ETA*lap, of_limit*ETA
         rates = np.array([[0, -1j*s, 0],
@@ -184,26 +184,26 @@ class MovingSteps(Case, table="steps", same="wavenumber"):
 
 
 def heat_kicks(edges: Edges, C: float, dt: float, seed: int) -> Callable[[np.ndarray, int], np.ndarray]:
-    """Heat with the amplitude of the current T_i T_j between points of heat capacity C (in k), kappa = C."""
+    """Random heat with amplitudes of the current T_i T_j, points of heat capacity C (in k), kappa = C."""
     across, normals, i, j = fluctuating.incidence(edges), np.empty((len(edges.i), 1)), edges.i, edges.j
 
     def kick(T: np.ndarray, step: int) -> np.ndarray:
         fill_pairs(0, len(normals), seed, step, i, j, normals)
-        squared = np.maximum(T[i]*T[j], 0)      # below zero once in very many
+        squared = np.maximum(T[i]*T[j], 0)      # rarely negative
         amplitude = np.sqrt(2*edges.k*squared/C*dt)
         return across@(amplitude*normals[:, 0])/edges.V
     return kick
 
 
 def heat_rates(edges: Edges, C: float, corrected: bool) -> np.ndarray:
-    """J of their temperatures; corrected : with 1 + k/C, what current amplitudes need of Ito's rule."""
+    """J of the temperatures of such points; corrected : times 1 + k/C, Ito's term of current amplitudes."""
     return (1 + corrected/C)*edges.laplacian.toarray()/edges.V[:, None]
 
 
 def dirichlet(n: int, C: float, corrected: bool) -> float:
-    """Var T/T^2 of n points with entropies C ln T at fixed total.
+    """Var T/T^2 of n points with entropies C ln T at fixed total energy.
 
-    Energies are Dirichlet(C/k + 1), without correction Dirichlet(C/k).
+    The energies have the distribution Dirichlet(C/k + 1); without correction Dirichlet(C/k).
     """
     return (n - 1)/(n*(C + corrected) + 1)
 
@@ -239,6 +239,6 @@ class Capacity(Case, table="capacity", same="C noise"):
                 looks.append(np.var(T))
             variances.append(np.mean(looks[1::2]))
             report((batch + 1)/(BATCHES + 1))
-        # `var` divides by n: (n - 1)/n of the variance of one point about the fixed mean is in it already
+        # `var` divides by n: it is (n - 1)/n of the variance of one point, as `dirichlet` is
         yield {"predicted": dirichlet(edges.n, self.C, self.corrected),
                **with_errors(measured=over_seeds(variances[1:]))}

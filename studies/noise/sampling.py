@@ -1,7 +1,7 @@
-"""Samples of the full equations    [RR98 Eqs 20-25]
+"""Fluctuations sampled from the full equations    [RR98 Eqs 20-25]
 
-Each mean is made of 20 batches, each ten decay times of the slowest mode or longer, started where the one
-before ended: their scatter, with its t factor, is the error.
+A mean is over 20 batches, each as long as ten decay times of the slowest mode or longer, and started where
+the previous one ended. The scatter of the batches, with its t factor, is the error.
 """
 from collections.abc import Iterator
 from dataclasses import replace
@@ -21,11 +21,11 @@ from studies.kit.table import Row
 from studies.noise.partners import ETA, KAPPA, ZETA
 
 BATCHES = 20
-DECAYS = 10         # of the slowest mode, at least, in a batch
+DECAYS = 10         # least length of a batch in decay times of the slowest mode
 
 
 def check_length(J: np.ndarray, time: float) -> None:
-    """Raise ValueError: batches are shorter than DECAYS decay times of the slowest mode not conserved."""
+    """Raise ValueError if batches are shorter than DECAYS decay times of the slowest mode not conserved."""
     rates = -np.linalg.eigvals(J).real
     slow = float(rates[rates > 1e-9*rates.max()].min())
     if time*slow < DECAYS:
@@ -34,7 +34,7 @@ def check_length(J: np.ndarray, time: float) -> None:
 
 
 class Nonlinear(Case, table="nonlinear", same="share k"):
-    """Variances of rho, v and T in the full equations on jittered points, over equilibrium."""
+    """Variances of rho, v and T in the full equations on jittered points, over those of equilibrium."""
     counts: tuple[int, int]
     share: float
     k: float
@@ -69,6 +69,6 @@ class Nonlinear(Case, table="nonlinear", same="share k"):
 
 
 def squares(flow: Any) -> np.ndarray:
-    """(n, 3): squares of what rho, v and T fluctuate by, each k/V in equilibrium."""
+    """Squared fluctuations (n, 3) of rho, v and T, each with mean k/V in equilibrium."""
     kinetic = flow.rho*(flow.v**2).sum(axis=1)/2
     return np.stack([(flow.rho - 1)**2, kinetic, (flow.T - 1)**2], axis=1)

@@ -1,6 +1,6 @@
-"""Dissipative particles with energies of their own: one temperature, heat conducted    [RR98 Sec. V]
+"""Dissipative particles with internal energies: one temperature, conduction of heat    [RR98 Sec. V]
 
-rho = 3, gamma = 4.5, rc = kT = 1, unit masses. A particle's entropy is C ln e.
+Units: rho = 3, gamma = 4.5, rc = kT = 1, unit masses. A particle's entropy is C ln e.
 """
 from collections.abc import Iterator
 
@@ -18,16 +18,16 @@ from studies.noise.dissipative import RHO
 
 BOX = (12.0, 3.0, 3.0)
 K = 2*np.pi/BOX[0]
-MANY, FEW = 1e4, 50.0       # capacities: whose T hardly fluctuate, whose T do
+MANY, FEW = 1e4, 50.0       # heat capacities of particles whose T hardly fluctuates, and whose T does
 
 
 def kappa_of(diffusivity: float, C: float, rho: float = RHO) -> float:
-    """nu/Pr = 2 pi rho C kappa/315, as printed    [Li et al. 2014, Eq. 15, and the manual of LAMMPS]"""
+    """kappa from diffusivity = 2 pi rho C kappa/315    [Li et al. 2014, Eq. 15, and LAMMPS's manual]"""
     return 315*diffusivity/(2*np.pi*rho*C)
 
 
 class Shared(Case, table="shared", same="a dt"):
-    """A fluid that starts with halves of unlike temperature and is left alone; means of its later half."""
+    """A closed fluid whose halves start at different temperatures; means over the second half of the run."""
     a: float
     dt: float
     time: float = 200.0
@@ -55,22 +55,22 @@ class Shared(Case, table="shared", same="a dt"):
 
 
 def energy(sums, state: np.ndarray) -> float:
-    """Kinetic and internal, of all particles."""
+    """Kinetic and internal energy of all particles."""
     return float((sums.velocity(state)**2).sum()/2 + state[-1].sum())
 
 
 def internal_temperature(sums, state: np.ndarray) -> float:
-    """1/<1/T_i>, T of equilibrium; <T_i> is T (1 + 1/C)    [Avalos & Mackie 1997]"""
+    """1/<1/T_i>, which is T in equilibrium; <T_i> is T (1 + 1/C)    [Avalos & Mackie 1997]"""
     return float(1/np.mean(sums.method.C/state[-1]))
 
 
 def relative_variance(sums, state: np.ndarray) -> float:
-    """<e^2>/<e>^2 - 1, which is 1/(C + 1) where P(e) is e^C exp(-e/T)    [Avalos & Mackie 1997]"""
+    """<e^2>/<e>^2 - 1, which is 1/(C + 1) for P(e) = e^C exp(-e/T)    [Avalos & Mackie 1997]"""
     return float(state[-1].var()/state[-1].mean()**2)
 
 
 class Conduction(Case, table="conduction", same="rho a given seed"):
-    """A wave of temperature along x; the diffusivity that its decay shows beside the given one."""
+    """Diffusivity of temperature from the decay of a wave along x, beside the given one."""
     rho: float
     a: float
     given: float
@@ -82,7 +82,7 @@ class Conduction(Case, table="conduction", same="rho a given seed"):
 
     @property
     def plan(self) -> Plan:
-        """For the time that a third of the wave takes or more; dt resolves what a pair exchanges, 21 D."""
+        """Steps until the wave has decayed to a third or less; dt resolves the exchange of pairs, 21 D."""
         time, dt = (1.0, 0.002) if self.given > 5 else (6.0, 0.01)
         return Plan(dt=dt, steps=round(time/dt), every=round(0.02*time/dt), series={"wave": wave})
 
@@ -99,6 +99,6 @@ class Conduction(Case, table="conduction", same="rho a given seed"):
 
 
 def wave(sums, state: np.ndarray) -> float:
-    """Amplitude of the wave of T; the mean of T would add the particles' own."""
+    """Amplitude of the wave of T, without the mean of T: particles' random places would add a part of it."""
     T, shape = state[-1]/sums.method.C, np.sin(K*state[0])
     return float(np.sum((T - T.mean())*shape)/np.sum(shape**2))

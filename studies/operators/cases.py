@@ -1,6 +1,6 @@
-"""What the study operators runs, by size.
+"""Cases of the study operators, by size.
 
-Lengths in spacings; densities, temperatures and sound speeds about 1. Paper size: ten minutes of one core.
+Lengths in spacings; densities, temperatures and sound speeds about 1. Size `paper`: ten minutes on one core.
 """
 from collections.abc import Iterable, Iterator
 from itertools import product
@@ -22,9 +22,9 @@ from studies.operators.weights import Continuum, ExponentialWave, LatticeSums, o
 
 KINDS = (*WEIGHTS.values(), Exponential, Gaussian)
 SEEDS = (1, 2, 3)
-#: range of the weight, cells across the wave, by dimension
+#: by dimension: range of the weight, numbers of cells across the wave
 CELLS = {1: (3.0, (32, 64, 128, 256)), 2: (3.0, (32, 48, 64, 96)), 3: (2.0, (16, 20, 24, 32))}
-#: A(r) and B(r)
+#: A(r) and B(r) of Eq. 51
 FORCES = (scheme.EdgeForces("A 1/r", (1.0, -1), (0.0, 0)),
           scheme.EdgeForces("B 1/r", (0.0, 0), (1.0, -1)),
           scheme.EdgeForces("A and B 1/r", (3.0, -1), (1.0, -1)),
@@ -33,28 +33,28 @@ FORCES = (scheme.EdgeForces("A 1/r", (1.0, -1), (0.0, 0)),
 
 SHIFTED = ("jittered-0.3", "random")
 OFF_LATTICE = ("jittered-0.1", "jittered-0.3", "random", "relaxed")
-#: points and range of the weight in 1, 2 and 3 dimensions: of random states, and of sound
+#: (points, range of the weight) in 1D, 2D, 3D: for random states, and for sound
 STATES = (((20,), 2.7), ((10, 12), 2.7), ((6, 6, 7), 2.2))
 BOXES = (((40,), 3.0), ((10, 10), 3.0), ((6, 6, 6), 2.0))
 GASES = (LinearGas(0.02, 0.01, 0.03), LinearGas(0.03, 0.0, 0.0), LinearGas(0.01, 0.0, 0.05))
 #: share of transport along edges in the motionless layer
 SHARES = (0.0, 0.003, 0.01, 0.03, 0.05, 0.07, 0.1, 0.3, 1.0)
 
-ZETA = 0.2          # of waves
+ZETA = 0.2          # bulk viscosity of waves
 LONG = 32           # spacings: longer waves on irregular points cost seconds each
 DRIVES = (Drive("couette", 1.0, 0.0, couette), Drive("poiseuille", 0.0, 1.0, poiseuille))
-MANY = tuple(range(1, 13))      # sets of points between rows of points: their errors scatter by a tenth
+MANY = tuple(range(1, 13))      # seeds of points between rows on plates: their errors scatter by a tenth
 
 
 def cases(size: str) -> list[Case]:
-    """`quick` has fewer sizes, seeds and kinds of points."""
+    """Cases of a size; `quick` has fewer sizes, seeds and kinds of points."""
     quick = size == "quick"
     parts = (weights, equations, points, waves, shear, layers, entropy, makers, wall_heat)
     return [case for part in parts for case in part(quick)]
 
 
 def weights(quick: bool) -> Iterator[Case]:
-    """Every weight as an integral and on the lattice; the exponential one at many widths."""
+    """Integrals of every weight; lattice sums of Lucy's and the exponential one, the last at many widths."""
     for numbers in (of_weights, of_edges, of_volumes, of_dilation, of_rotation):
         yield Arithmetic(numbers=numbers)
     for kind in (Lucy, Exponential) if quick else KINDS:
@@ -65,7 +65,7 @@ def weights(quick: bool) -> Iterator[Case]:
 
 
 def equations(quick: bool) -> Iterator[Case]:
-    """Terms against exact derivatives."""
+    """Terms against exact derivatives, and viscosities of forces along edges."""
     for d, (h, cells) in CELLS.items():
         if d < 3 or not quick:
             yield from (EquationErrors(d=d, weight=WendlandC2, h=h, cells=n) for n in cells)
@@ -73,7 +73,7 @@ def equations(quick: bool) -> Iterator[Case]:
 
 
 def points(quick: bool) -> Iterator[Case]:
-    """One kernel, and what grows."""
+    """Pressures that are not symmetric, growth of sound, limits of Euler's step."""
     dimensions, seeds = ((2,), SEEDS[:1]) if quick else ((1, 2, 3), SEEDS)
     for d in dimensions:
         yield from on_points(scheme.OneKernel, STATES[d - 1], ["renormalised"], SHIFTED, seeds)
@@ -85,7 +85,7 @@ def points(quick: bool) -> Iterator[Case]:
 
 def on_points(case: type[scheme.PointSet], box: tuple[tuple[int, ...], float], makers: Iterable[str],
               kinds: Iterable[str], seeds: Iterable[int]) -> Iterator[scheme.PointSet]:
-    """Triangles need two dimensions, and points that do not lie on spheres."""
+    """Cases over makers, kinds of points and seeds; Delaunay edges need d > 1 and, in 3D, no lattice."""
     counts, h = box
     d = len(counts)
     for maker, kind, seed in product(makers, kinds, seeds):
@@ -94,7 +94,7 @@ def on_points(case: type[scheme.PointSet], box: tuple[tuple[int, ...], float], m
 
 
 def waves(quick: bool) -> Iterator[Case]:
-    """On a lattice, a strip as narrow as the range allows, and on three sets of points jittered by 0.3 a."""
+    """Decaying waves in a narrow strip of lattice, and on three sets of points jittered by 0.3 a."""
     wavelengths = (16, 24, 32) if quick else (8, 16, 24, 32, 48, 64)
     for way in ("nested", "pairwise"):
         for h, n in product((2.0, 3.0), wavelengths):
@@ -107,7 +107,7 @@ def waves(quick: bool) -> Iterator[Case]:
 
 
 def shear(quick: bool) -> Iterator[Case]:
-    """Flows between plates; a lattice has no seeds."""
+    """Shear flows between plates; one seed for a lattice."""
     all_rows = ((8, 12, 16), (8,), (8,)) if quick else ((8, 16, 32, 64), (8, 16, 32, 48), (8, 16, 32, 48, 64))
     all_seeds = ((1,), SEEDS, SEEDS if quick else MANY)
     for points, sizes, seeds in zip(BETWEEN, all_rows, all_seeds, strict=True):
@@ -123,7 +123,7 @@ def layers(quick: bool) -> Iterator[Case]:
 
 
 def entropy(quick: bool) -> Iterator[Case]:
-    """Smooth, random and worst states; the range of 2.5 a fits into six cells. Flows need closed edges."""
+    """Entropy in smooth, random and worst states, range 2.5 a: six cells hold it. Flows need closed edges."""
     sets = ((renormalised, "lattice"), (delaunay, "jittered-0.3"), (exact, "jittered-0.3"))
     states = (("smooth", (16,) if quick else (16, 32, 64), (1,)), ("random", (10,), (1,)),
               ("sought", (6,), SEEDS[:1 if quick else 3]))
@@ -135,17 +135,17 @@ def entropy(quick: bool) -> Iterator[Case]:
 
 
 def makers(quick: bool) -> Iterator[Case]:
-    """Areas of today's methods on all sets of points."""
+    """Errors of the areas of today's methods on all sets of points."""
     cells, seeds = ((8, 12, 16), (1,)) if quick else ((16, 32, 48), SEEDS[:2])
     for (name, (make, kind)), (points, disorder), n in product(TODAY.items(), SETS.items(), cells):
         for seed in seeds[:1] if points in ("lattice", "hexagonal", "relaxed") else seeds:
             yield MakerErrors(maker=name, make=make, kind=kind, points=disorder, cells=n, seed=seed)
-    for name, (make, kind) in () if quick else TODAY.items():       # without seeds three sizes tell no order
+    for name, (make, kind) in () if quick else TODAY.items():       # one seed: three sizes give no order
         yield MakerErrors(maker=name, make=make, kind=kind, points=SETS["lattice"], cells=24)
 
 
 def wall_heat(quick: bool) -> Iterator[Case]:
-    """The same, between plates; closed faces of 64 rows cost minutes each."""
+    """Heat through plates on the same points; fewer rows for closed faces: 64 would cost minutes each."""
     sizes, seeds = ((8, 12, 16), (1,)) if quick else ((16, 32, 64), SEEDS)
     for maker, (points, disorder), rows in product((*SMOOTH, *FACES), SETS.items(), sizes):
         rows = rows if maker != "closed faces" or quick else 8 + rows//4

@@ -1,15 +1,15 @@
-"""Entropy that stress and heat current produce    [RR98 Eqs 37, 38, 51]
+"""Entropy production by stress and heat current, and by flow over edges    [RR98 Eqs 37, 38, 51]
 
-What leaves i over an edge for j, momentum f and energy e, heats i by -(e - v_i.f) and j by e - v_j.f, so
+An edge that takes momentum f and energy e from i to j heats i by -(e - v_i.f) and j by e - v_j.f, so
 
     dS/dt = sum over edges [(e - v_j.f)/T_j - (e - v_i.f)/T_i]
 
-Of what flows without friction over closed edges, F of q = (rho, rho v, eps) into i, -F into j, it is
+Flow without friction over closed edges, which brings F of q = (rho, rho v, eps) to i and -F to j, has
 
     dS/dt = sum over edges [(w_i - w_j).F + S.(rho_j v_j - rho_i v_i)],  w = d(rho s)/dq   [Tadmor 1987]
 
-Of forces F along edges that heat as they work it is F.(v_j - v_i)(1/T_i + 1/T_j)/2 + kappa k (T_j - T_i)^2
-/T_i T_j, never negative. The continuum has sigma : grad v/T + kappa (grad T)^2/T^2 in each place.
+Forces F along edges that heat by their work have F.(v_j - v_i)(1/T_i + 1/T_j)/2 + kappa k (T_j - T_i)^2
+/(T_i T_j), never negative. The continuum has sigma : grad v/T + kappa (grad T)^2/T^2 at each place.
 """
 from collections.abc import Callable, Iterator
 from functools import partial
@@ -32,20 +32,20 @@ from studies.operators.equations import ALONG, ETA, KAPPA, Spectral, smooth_flow
 from studies.operators.scheme import PointSet
 
 State = tuple[np.ndarray, np.ndarray, np.ndarray]       # rho (n,), v (n, 2), T (n,)
-#: by name: as printed, and mended
+#: ways of transport by name
 WAYS = {"along edges": ALONG, "along edges, mended": Pairwise(), "nested": NestedFluxes()}
 GAS = IdealGas()
 FLOWS = {"brackets": (Convection(), Pressure(GAS)), "crossed pressure": (Logarithmic(GAS), Pressure(GAS)),
          "mean pressure": (Logarithmic(GAS), MeanPressure(GAS)), "dissipation": (Dissipation(GAS),)}
-ROUNDING = 1e-12        # of what cancels: an edge that destroys less does not
-#: state -> what each edge produces, and the size of what cancels in it
+ROUNDING = 1e-12        # destroyed entropy over the terms that cancel in it: below this it is round-off
+#: state -> entropy production of each edge (E,), and the size of the terms that cancel in it (E,)
 Producer = Callable[[State], tuple[np.ndarray, np.ndarray]]
-DRAWS, STEPS = 200, 60  # random states; steps of a search
-SPREAD, WIDEST, FAST = 0.5, np.log(3), 1.0      # of ln T of random states; of ln T and v of sought ones
+DRAWS, STEPS = 200, 60  # number of random states; steps of a search
+SPREAD, WIDEST, FAST = 0.5, np.log(3), 1.0      # rms ln T of random states; most |ln T|, |v| of sought ones
 
 
 def produced(dih: Dih, state: State) -> tuple[np.ndarray, np.ndarray]:
-    """dS/dt by each edge, (E,), and its size."""
+    """Entropy production of each edge by stress and heat current, (E,), and its size."""
     edges, flow = dih.edges, dih.flow(dih.state(*state))
     (_, f, e), (v, T), i, j = dih.transport.fluxes(dih, flow), flow[1:3], edges.i, edges.j
     q = ((v[i]*f).sum(axis=1) - e)/T[i] + (e - (v[j]*f).sum(axis=1))/T[j]
@@ -53,7 +53,7 @@ def produced(dih: Dih, state: State) -> tuple[np.ndarray, np.ndarray]:
 
 
 def of_flow(sums: StableSums, terms: tuple, state: State) -> tuple[np.ndarray, np.ndarray]:
-    """The same of terms between points without images. Brackets and pressures count from a pressure of 0."""
+    """The same by listed terms of a flow, without images; pressures are not relative to a point's own."""
     method, edges = sums.method, sums.at.edges
     sums.look_at(method.state(*state))
     row, near = np.repeat(np.arange(sums.n), edges.taken), edges.near.astype(int)
@@ -77,7 +77,7 @@ def of_flow(sums: StableSums, terms: tuple, state: State) -> tuple[np.ndarray, n
 
 
 def producer(way: str, points: Points, edges: Edges) -> Producer:
-    """Of a way of transport, or of listed terms of a flow."""
+    """Function that gives the entropy production of a way of transport, or of the terms of a flow."""
     law = ConstEta(ETA, KAPPA)
     if way in WAYS:
         return partial(produced, Dih(edges=edges, eos=GAS, law=law, transport=WAYS[way]))
@@ -87,19 +87,19 @@ def producer(way: str, points: Points, edges: Edges) -> Producer:
 
 
 def share(made: Producer, state: State) -> float:
-    """Sum of what edges produce over the sum of its sizes."""
+    """Entropy production of all edges over the sum of its sizes."""
     q, size = made(state)
     return float(q.sum()/size.sum())
 
 
 def smooth(x: np.ndarray) -> State:
-    """One wave along each axis of the unit box, T from 0.2 to 1.8."""
+    """State with one wave along each axis of the unit box, T from 0.2 to 1.8."""
     rho, v, T = smooth_flow(x)
     return rho, v, 1 + 8*(T - 1)
 
 
 def continuum() -> float:
-    """Of that flow in two dimensions, where it does not depend on the size of the box; zeta = 0."""
+    """Entropy production of that state in the continuum, zeta = 0; in 2D the size of the box drops out."""
     exact, (_, v, T) = Spectral((64, 64)), smooth(lattice((64, 64), 1/64).x)
     slope = exact.grad(v)
     friction = (stress_tensor(ETA*np.ones_like(T), 0*T, slope)*slope).sum(axis=(1, 2))
@@ -107,7 +107,7 @@ def continuum() -> float:
 
 
 class Entropy(PointSet, table="entropy", same=f"{PointSet.same} transport state"):
-    """Of a smooth state, of random ones, or of the worst one that a descent from a random one finds."""
+    """Entropy production in a smooth state, in random ones, or in the worst one that a descent finds."""
     transport: str
     state: str
 
@@ -122,13 +122,13 @@ class Entropy(PointSet, table="entropy", same=f"{PointSet.same} transport state"
                "least": (sums/size.sum(axis=1)).min(), "negative": np.mean(every < -ROUNDING*size)}
 
     def states(self, made: Producer, points: Points) -> Iterator[State]:
-        """One, or many random ones."""
+        """One smooth state, DRAWS random ones, or one that a descent from a random one finds."""
         n, rng = points.n, np.random.default_rng(self.seed)
         if self.state == "smooth":
             yield smooth(points.x/points.box)
         elif self.state == "sought":
             bounds = np.repeat([WIDEST, FAST, FAST], n)
-            search: Any = minimize      # whose types know no options of one method
+            search: Any = minimize      # scipy's types lack options of one method
             found = search(lambda q: share(made, unpacked(q)), rng.uniform(-bounds, bounds),
                            bounds=Bounds(-bounds, bounds), options={"maxiter": STEPS})
             yield unpacked(found.x)
@@ -138,6 +138,6 @@ class Entropy(PointSet, table="entropy", same=f"{PointSet.same} transport state"
 
 
 def unpacked(fields: np.ndarray) -> State:
-    """Density 1, from ln T and velocities in one row."""
+    """State of density 1, from ln T and velocities in one row."""
     log_T, *v = fields.reshape(3, -1)
     return np.ones_like(log_T), np.stack(v, axis=1), np.exp(log_T)

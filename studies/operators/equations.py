@@ -1,4 +1,4 @@
-"""Terms on lattices against exact derivatives, and sums read literally    [RR98 Eqs 10-19, 21, 26-38, 51]"""
+"""Terms on lattices against exact derivatives; sums read literally    [RR98 Eqs 10-19, 21, 26-38, 51]"""
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import Any, NamedTuple
@@ -21,8 +21,8 @@ PRINTED, ALONG = NestedFluxes(differences=False), Pairwise(mended=False)
 CHANGING = PowerLaw(ETA, KAPPA, n=1.0)      # eta and kappa proportional to T
 
 ROWS, SPACING = 64, 0.5     # of the lattice on which dV is 1/4
-STEP = 1e-4                 # of a central difference of Eq. 34, which is quadratic: it is exact
-OMEGA = 0.05                # of a rigid rotation
+STEP = 1e-4                 # of a central difference of Eq. 34: exact, as Eq. 34 is quadratic
+OMEGA = 0.05                # angular velocity of a rigid rotation
 
 Sums = list[sparse.csr_array]
 #: (operator, discrete, exact)
@@ -43,11 +43,11 @@ class Spectral(NamedTuple):
         return np.moveaxis(slope, -1, axis).reshape(f.shape)
 
     def grad(self, f: np.ndarray) -> np.ndarray:
-        """[n, a, ...] = d_a f."""
+        """Gradient: [n, a, ...] = d_a f."""
         return np.stack([self.derivative(f, a) for a in range(len(self.shape))], axis=1)
 
     def div(self, F: np.ndarray) -> np.ndarray:
-        """sum_a d_a F[:, a]."""
+        """Divergence: sum_a d_a F[:, a]."""
         return np.sum([self.derivative(F[:, a], a) for a in range(len(self.shape))], axis=0)
 
 
@@ -62,7 +62,7 @@ def smooth_flow(x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 
 def transported(dih: Dih, flow: Flow) -> np.ndarray:
-    """What stress and heat current alone bring to each point, per time and volume, (2 + d, n)."""
+    """Rates of densities by stress and heat current alone, (2 + d, n)."""
     return gained(dih.edges, dih.transport.fluxes(dih, flow))/dih.edges.V
 
 
@@ -74,7 +74,7 @@ def rates(dih: Dih, state: np.ndarray) -> np.ndarray:
 
 
 def terms(dih: Dih, flow: Flow, exact: Spectral) -> Terms:
-    """Eqs 34-38 as printed but for the trace factor, eta and kappa proportional to T."""
+    """Terms of Eqs 34-38 as printed, except for the trace factor; eta and kappa proportional to T."""
     rho, v, T, eps, P = flow
     eta, _, kappa = dih.coefficients(flow)
     stress = stress_tensor(eta, ZETA, exact.grad(v))
@@ -104,7 +104,7 @@ def frictions(dih: Dih, flow: Flow, exact: Spectral) -> Terms:
 
 
 class EquationErrors(Case, table="equations", same="d weight h cells"):
-    """All terms for one smooth flow on a lattice of cells^d points, h in spacings; those of Eq. 51 in 2D.
+    """Errors of all terms for a smooth flow on a lattice of cells^d points, of Eq. 51 in 2D; h in spacings.
 
     error : relative rms. ratio : projection of the discrete field on the exact one.
     """
@@ -136,7 +136,7 @@ def ratio(literal: np.ndarray, true: np.ndarray) -> float:
 
 
 class Arithmetic(Case, table="numbers"):
-    """Single numbers without parameters. numbers : makes them, by name."""
+    """Single numbers without parameters. numbers : function that gives them by name."""
     numbers: Callable[[], dict[str, float]]
 
     def measure(self, report: Report) -> Iterator[Row]:
@@ -145,7 +145,7 @@ class Arithmetic(Case, table="numbers"):
 
 
 def brackets(edges: Edges) -> Sums:
-    """The matrices W(r_ij) e^alpha_ij of Eqs 29, 33-38, one a direction; e_ij leads from j to i."""
+    """The matrices W(r_ij) e^alpha_ij of Eqs 29, 33-38, one per direction; e_ij points from j to i."""
     return [sparse.csr_array(sparse.diags_array(-0.5/edges.V)@S) for S in edges.areas]
 
 
@@ -155,7 +155,7 @@ def inner(w: Sums, v: np.ndarray) -> np.ndarray:
 
 
 def kernel(g: np.ndarray, eta: float, zeta: float, trace: float) -> np.ndarray:
-    """pi_ij of Eq. 37 without i, constant viscosities, the trace factor as given; g as from `inner`."""
+    """pi_ij of Eq. 37, which constant viscosities make independent of i; trace : factor; g : from `inner`."""
     div = np.trace(g, axis1=1, axis2=2)[:, None, None]*np.eye(g.shape[1])
     return -eta*(g + g.transpose(0, 2, 1) - trace*div) - zeta*div
 
@@ -166,12 +166,12 @@ def gathered(w: Sums, F: np.ndarray) -> np.ndarray:
 
 
 def mass_rate(w: Sums, m: np.ndarray, v: np.ndarray) -> np.ndarray:
-    """dm_i/dt    [RR98 Eq. 34]; of a component of p_i what convection brings to it    [Eq. 35]"""
+    """dm_i/dt    [RR98 Eq. 34]; with a component of p for m, its rate by convection    [Eq. 35]"""
     return sum(m*(M@u) + u*(M@m) for M, u in zip(w, v.T, strict=True))
 
 
 def of_volumes() -> dict[str, float]:
-    """Eqs 26, 27, 33-37 read literally, over what they stand for: a wave along x where dV is 1/4, 2D."""
+    """Eqs 26, 27, 33-37 read literally, over the terms they stand for: a wave along x in 2D, dV = 1/4."""
     at = lattice((ROWS, 8), SPACING)
     edges = renormalised(at, Lucy.of(h=3*SPACING))
     w, dV = brackets(edges), edges.V[0]
@@ -206,12 +206,12 @@ def linearised(w: Sums, s: np.ndarray, c: np.ndarray) -> tuple[np.ndarray, np.nd
 
 
 def of_dilation() -> dict[str, float]:
-    """What the printed trace factor 2/3 adds to zeta over eta    [RR98 Eq. 37]"""
+    """Bulk viscosity that the printed trace factor 2/3 adds, over eta    [RR98 Eq. 37]"""
     return {f"dilation in {d}D": added_bulk(d, 2/3) for d in (2, 3)}
 
 
 def added_bulk(d: int, trace: float) -> float:
-    """Mean normal stress of v = x in the middle of a patch, less zeta, over eta = 1."""
+    """Bulk viscosity less zeta, over eta = 1, from the mean normal stress of v = x in a patch's middle."""
     at, zeta = lattice((12,)*d), 0.3
     edges = renormalised(at, WendlandC2.of(h=2.5, d=d))
     middle = (np.abs(at.x) < 2).all(axis=1)
@@ -222,7 +222,7 @@ def added_bulk(d: int, trace: float) -> float:
 def of_rotation() -> dict[str, float]:
     """Heating of a rigid rotation by forces along edges as printed, over eta omega^2    [RR98 Eq. 51]
 
-    Lengths of edges stay, so only the force along v_ij heats: with 2 B omega^2, B = eta (1/2 + 1/d).
+    Edges keep their lengths, so only the force along v_ij heats: by 2 B omega^2, B = eta (1/2 + 1/d).
     """
     at = lattice((24, 24))
     edges, one = renormalised(at, WendlandC2.of(h=2.2)), np.ones(at.n)

@@ -10,7 +10,7 @@ from studies.kit.figure import Drawing, Drawings, errorbar, figure, logarithmic,
 
 KINDS = ("lattice", "jittered-0.1", "jittered-0.3", "random", "relaxed")
 MAKERS = ("printed", "plain", "renormalised", "closed", "exact", "delaunay")
-FLOOR = 1e-16       # growth rates of round-off are drawn there
+FLOOR = 1e-16       # smaller values, of round-off, are drawn here
 #: points between plates -> title
 WALLED = {"lattice": "lattice, images behind the plates", "jittered-0.2": "shifted by up to $0.2a$, images",
           "jittered-0.2, plates": "shifted by up to $0.2a$, rows on the plates"}
@@ -20,7 +20,7 @@ FLOWS = {"couette": "Couette flow, $U$: of the upper plate",
 
 
 def legend(page: Figure, axes: Axes, columns: int, **more: Any) -> None:
-    """Of one panel, for all."""
+    """Draw the legend of one panel for the whole page."""
     page.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=columns, **more)
 
 

@@ -1,12 +1,12 @@
-"""The map of makers: what pressures, velocities and heat do over the areas of today's methods on points.
+"""Errors of gradients, divergences and Laplacians over the areas of today's methods, on sets of points.
 
-Smooth particles are asked as they run: pressures P push by -momentum(P), uniform ones heat by -P gradient(v),
-heat flows by laplacian(T): the areas are those of `particles.smooth` themselves. L_i is the gradient of x, 1
-where linear fields are exact; its deviator is that of P M, a stress which a fluid has not.
+Operators of smooth particles are read from the rates of `particles.smooth`: a pressure P pushes by
+-momentum(P), a uniform P heats by -P gradient(v), conduction heats by laplacian(T). L_i is the gradient of x,
+1 where linear fields are exact; its deviator is that of the stress P M, which a fluid does not have.
 
-Heat through a plate with odd images is that of a layer with Nu = 2, T_m - T = dT (s - sin(2 pi s)/2 pi), s =
-y/L: flat in the middle, without a second derivative at the plates, so that images, which have none, may be
-right to second order.
+Heat through plates with odd images is measured in a layer with Nu = 2, T_m - T = dT (s - sin(2 pi s)/2 pi), s
+= y/L. This profile is flat in the middle and has no second derivative at the plates. Odd images have none
+either, so that they can be right to second order.
 """
 from collections.abc import Callable, Iterator
 from functools import cache, partial
@@ -30,13 +30,13 @@ from studies.build.setting import DISORDERS, Disorder
 from studies.kit.case import Case, Report
 from studies.kit.table import Row
 
-#: vortices that carry points: their speed, turns, and viscosity over the height
+#: vortices that carry points: speed, number of turns, viscosity over the height
 SPEED, TURNS, ETA = 0.2, 0.5, 0.01
-Field = Callable[[np.ndarray], np.ndarray]      # of places (2, points)
+Field = Callable[[np.ndarray], np.ndarray]      # function of places (2, points)
 
 
 class Operators(NamedTuple):
-    """At places x (2, n): slopes (2, n) as pressures and as velocities have them, Laplacian (n,); L_i."""
+    """Operators at places x (2, n): gradients (2, n) of pressures and of velocities, Laplacian (n,), L_i."""
     x: np.ndarray
     momentum: Callable[[Field], np.ndarray]
     gradient: Callable[[Field], np.ndarray]
@@ -45,7 +45,7 @@ class Operators(NamedTuple):
 
 
 def of_particles(points: Points, weight: Any, transport: type) -> Operators:
-    """Of smooth particles of unit mass, kappa = 1, no viscosity."""
+    """Operators of smooth particles of unit mass, kappa = 1, no viscosity."""
     method = spam.fluid(weight, tuple(points.box), law=ConstEta(0.0, 1.0), transport=transport)
     sums, *_ = method.look(spam.at_rest(points.x, 1.0))
     around, n = sums.around, sums.n
@@ -64,7 +64,7 @@ def of_particles(points: Points, weight: Any, transport: type) -> Operators:
 
 
 def of_edges(points: Points, weight: Any, make: Callable) -> Operators:
-    """Of edges."""
+    """Operators of the edges that a maker makes."""
     edges, x = make(points, weight), points.x.T
 
     def slopes(matrices: list, f: Field) -> np.ndarray:
@@ -74,13 +74,13 @@ def of_edges(points: Points, weight: Any, make: Callable) -> Operators:
 
 
 NAMES = ("sph", "sumB", "RKGC", "bonet-lok", "corrected", "CRKSPH", "MFM")
-#: how, and of what; closed faces: of those that close and are exact the nearest to those of a weight
+#: name -> function that makes operators, its argument; closed faces: closed, exact, nearest to a weight's
 MAKERS: dict[str, tuple[Callable, Any]] = {name: (of_particles, spam.TODAY[name].transport) for name in NAMES}
 MAKERS |= {"closed faces": (of_edges, exact), "delaunay": (of_edges, delaunay)}
 
 
 def hexagonal(counts: tuple[int, ...], size: float, seed: int) -> Points:
-    """A triangular lattice, so many points along x, in a box of about that height."""
+    """A triangular lattice of unit volumes, counts[0] points along x, in a box of about that shape."""
     columns, rows = counts[0], 2*round(counts[1]/sqrt(3))
     i, j = (q.ravel() for q in np.meshgrid(np.arange(columns), np.arange(rows), indexing="ij"))
     a = sqrt(2/sqrt(3))
@@ -90,7 +90,7 @@ def hexagonal(counts: tuple[int, ...], size: float, seed: int) -> Points:
 
 @cache
 def flowed(counts: tuple[int, ...], size: float, seed: int) -> Points:
-    """Where classic particles are that vortices have carried for half of a turn."""
+    """Places of classic SPH particles after vortices have carried them for half a turn."""
     L = float(counts[0])
     ready = spam.TODAY["sph"].ready(Tile(width=L, L=L, law=ConstEta(ETA*L, ETA*L)), seed)
     x, y = 2*np.pi/L*ready.start[:2]
@@ -103,12 +103,12 @@ SETS = {**DISORDERS, "hexagonal": Disorder("hexagonal", hexagonal), "flowed": Di
 
 
 def size(q: np.ndarray) -> float:
-    """Root of the mean square over points of numbers (..., n)."""
+    """Root of the mean squared norm over points, of q (..., n)."""
     return float(np.sqrt((q.reshape(-1, q.shape[-1])**2).sum(axis=0).mean()))
 
 
 class OnPoints(Case, same="maker points cells seed"):
-    """Something that a maker does on cells x cells points of SETS; no row where edges cannot be made."""
+    """Base of measurements of a maker on cells x cells points of SETS; no row where edges do not exist."""
     maker: str
     points: Disorder
     cells: int
@@ -126,12 +126,12 @@ class OnPoints(Case, same="maker points cells seed"):
             return
 
     def row(self, points: Points) -> Row:
-        """Of a set of points."""
+        """The row measured on these points."""
         raise NotImplementedError
 
 
 class MakerErrors(OnPoints, table="makers"):
-    """Errors of one maker of MAKERS, waves as long as the box."""
+    """Errors of the operators of one of MAKERS, for waves as long as the box."""
     make: Callable
     kind: Any
 
@@ -140,7 +140,7 @@ class MakerErrors(OnPoints, table="makers"):
 
 
 def errors(points: Points, at: Operators) -> dict[str, float]:
-    """Over the size of what is exact, means of waves along x and y."""
+    """Errors of operators relative to exact values, means over waves along x and y."""
     L, eye, waves = at.linear, np.eye(2)[:, :, None], []
     for a in (0, 1):
         k = 2*np.pi/points.box[a]
@@ -158,13 +158,13 @@ def errors(points: Points, at: Operators) -> dict[str, float]:
 # --- heat through plates ---------------------------------------------------------------------------------
 
 NU, WARMER = 2.0, 0.1
-#: what else there is pushes in another way and conducts as sph does
+#: the other methods differ from these in pressures and conduct heat as sph does
 SMOOTH = ("sph", "corrected", "delta-plus")
 FACES: dict[str, Callable] = {"closed faces": exact, "delaunay": delaunay}
 
 
 def layer(points: Points) -> tuple[RayleighBenard, np.ndarray]:
-    """The layer in the box of some points, and their temperatures."""
+    """The layer that fills the box of the points, and the temperatures of the points."""
     width, L = points.box
     scene = RayleighBenard(ra=1e4, L=float(L), aspect=width/L, T_hot=1 + WARMER/2, T_cold=1 - WARMER/2)
     s = points.x[:, 1]/L
@@ -172,7 +172,7 @@ def layer(points: Points) -> tuple[RayleighBenard, np.ndarray]:
 
 
 def through_pairs(points: Points, maker: str) -> np.ndarray:
-    """Nu at both plates, of smooth particles at rest."""
+    """Nu at both plates, for smooth particles at rest."""
     scene, T = layer(points)
     variant, fields = spam.TODAY[maker], (np.ones(len(T)), 0*points.x, T)
     method = spam.method(scene, variant)
@@ -183,7 +183,7 @@ def through_pairs(points: Points, maker: str) -> np.ndarray:
 
 
 def through_faces(points: Points, make: Callable) -> np.ndarray:
-    """The same over edges, kappa = 1."""
+    """Nu at both plates, over edges, kappa = 1."""
     scene, T = layer(points)
     _, beyond = between_plates(make, points.x, *points.box, WendlandC2.of(h=3.0))      # type: ignore[call-arg]
     plate = np.array([scene.T_hot, scene.T_cold])[beyond.plate]
@@ -192,7 +192,7 @@ def through_faces(points: Points, make: Callable) -> np.ndarray:
 
 
 class WallHeat(OnPoints, table="wall_heat"):
-    """Heat of one maker between plates, so many cells apart."""
+    """Error of the heat through plates for one maker; cells : rows between the plates."""
 
     def row(self, points: Points) -> Row:
         through: Any = through_faces if self.maker in FACES else through_pairs

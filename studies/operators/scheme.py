@@ -1,4 +1,4 @@
-"""What brackets let grow, one kernel, the step of Euler, forces along edges    [RR98 Eqs 13, 34-40, 51]"""
+"""Growth of sound, unsymmetric pressures, Euler's step, forces along edges    [RR98 Eqs 13, 34-40, 51]"""
 from collections.abc import Callable, Iterator
 from math import prod
 from typing import Any, ClassVar, NamedTuple
@@ -20,15 +20,15 @@ from studies.kit.case import Case, Report
 from studies.kit.table import Row
 from studies.operators.weights import around, integral
 
-VISCOSITIES = (0.0, 0.1)    # rho c a
+VISCOSITIES = (0.0, 0.1)    # in rho c a
 C2 = 2.0                    # gamma P/rho of the ideal gas at rho = T = 1
-NULL = 1e-6                 # rates that small belong to waves that the operators do not see
+NULL = 1e-6                 # eigenvalues below this belong to waves that the operators do not see
 
 
 class PointSet(Case, same="maker points d seed"):
-    """What edges do on one set of points; no rows where the maker has none there.
+    """Base of measurements on the edges of one set of points; no rows where the maker has no edges.
 
-    maker : of `particles.integral.edge_makers.MAKERS`. h : range of the weight, in spacings.
+    maker : one of `particles.integral.edge_makers.MAKERS`. h : range of the weight, in spacings.
     """
     maker: Callable[[Points, Any], Edges]
     points: Disorder
@@ -51,14 +51,14 @@ class PointSet(Case, same="maker points d seed"):
         yield from self.rows_of(points, edges)
 
     def rows_of(self, points: Points, edges: Edges) -> Iterator[Row]:
-        """What is measured on this set."""
+        """The rows measured on these points and edges."""
         raise NotImplementedError
 
 
 class OneKernel(PointSet, table="one_kernel"):
-    """Momentum that the pressure's kernel P(rho(r), T(r')) alone would not keep    [RR98 Eqs 13, 14]
+    """Momentum lost if the pressure has the one kernel P(rho(r), T(r')), not both    [RR98 Eqs 13, 14]
 
-    P = rho T, rho and T random: i gets S.P_ij/2, j gets S.P_ji/2. lost : over the sum of sizes.
+    P = rho T, rho and T random: i gets -S P_ij/2, j gets S P_ji/2. lost : over the sum of sizes.
     """
 
     def rows_of(self, points: Points, edges: Edges) -> Iterator[Row]:
@@ -72,7 +72,7 @@ class OneKernel(PointSet, table="one_kernel"):
 
 
 class SoundGrowth(PointSet, table="growth"):
-    """Largest growth rate of sound at rest."""
+    """Largest growth rate of sound in a fluid at rest."""
 
     @property
     def cost(self) -> float:
@@ -87,9 +87,9 @@ class SoundGrowth(PointSet, table="growth"):
 
 
 def sound(edges: Edges, eta: float = 0.0) -> np.ndarray:
-    """Matrix of d/dt (P'/c, p) in a fluid at rest, times sqrt(V); rho = c = 1, friction eta lap v.
+    """Matrix of rates of sqrt(V) (P'/c, p) in a fluid at rest; rho = c = 1, friction eta lap v.
 
-    V P'_t = -c^2 D.p and V p_t = -D P': antisymmetric if D = -D^T, so where edges close.
+    V P'_t = -c^2 D.p and V p_t = -D P': antisymmetric if D = -D^T, that is, where edges close.
     """
     n, d, root = edges.n, edges.d, 1/np.sqrt(edges.V)
     A = np.zeros(((d + 1)*n,)*2)
@@ -103,7 +103,7 @@ def sound(edges: Edges, eta: float = 0.0) -> np.ndarray:
 
 
 def euler_limit(eigenvalues: np.ndarray) -> float:
-    """The largest dt with |1 + lambda dt| <= 1 for all that are no null modes; 0 if one grows by itself."""
+    """Largest dt with |1 + lambda dt| <= 1 for all eigenvalues but null modes; 0 if a mode grows."""
     seen = eigenvalues[np.abs(eigenvalues) > NULL]
     return np.min(np.maximum(-2*seen.real/np.abs(seen)**2, 0), initial=np.inf)
 
@@ -124,9 +124,9 @@ class EulerLimit(Case, table="euler"):
 
 
 class LayerGrowth(Case, table="nested_growth", same="h rows ra share"):
-    """The fastest growing disturbance of a motionless layer between plates; `h` in spacings, rate in c/a.
+    """Growth rate (in c/a) of the fastest growing disturbance of a motionless layer; h in spacings.
 
-    share : of transport along edges [Eq. 51], the rest is nested [Eqs 37, 38].
+    share : of transport along edges [Eq. 51]; the rest is nested [Eqs 37, 38].
     """
     h: float
     rows: int
@@ -148,7 +148,7 @@ class LayerGrowth(Case, table="nested_growth", same="h rows ra share"):
 
 
 class EdgeForces(NamedTuple):
-    """A(r) and B(r) of Eq. 51, each c and p of c q^p, q = r/h."""
+    """A(r) and B(r) of Eq. 51, each given as (c, p) of c (r/h)^p."""
     name: str
     A: tuple[float, int]
     B: tuple[float, int]
@@ -161,7 +161,7 @@ def viscosities(d: int, M_A: float, M_B: float) -> tuple[float, float]:
 
 
 class EdgeViscosities(Case, table="friction", same="d form h"):
-    """Of forces A(r) e (e.v_ij) + B(r) v_ij [RR98 Eq. 51]: long waves on a lattice, and M_A and M_B."""
+    """Viscosities of forces A(r) e (e.v_ij) + B(r) v_ij [RR98 Eq. 51]: of long waves, and by M_A, M_B."""
     d: int
     form: EdgeForces
     h: float

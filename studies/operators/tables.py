@@ -1,7 +1,7 @@
-"""Tables of the study operators, and what follows from them: orders, limits, means over seeds.
+"""Tables of the study operators, and tables derived from them: orders, limits, means over seeds.
 
-Lengths in spacings (`continuum`: in r0); `_err`: half of the 95 % interval. `predicted` is of
-theory, for the number beside it.
+Lengths in spacings (`continuum`: in r0); `_err`: half of the 95 % interval; `predicted`: value by theory of
+the number beside it.
 """
 from collections.abc import Iterator
 
@@ -100,10 +100,10 @@ ALL = (CONTINUUM, LATTICE, EXPONENTIAL, NUMBERS, EQUATIONS, ORDERS, FRICTION, ON
        GROWTH_MEANS, EULER, NESTED_GROWTH, WAVES, COEFFICIENTS, TRANSPORT_ORDERS, SHEAR, SHEAR_MEANS,
        SHEAR_ORDERS, ENTROPY, MAKERS, MAKER_ORDERS, WALL_HEAT, WALL_ORDERS)
 
-# --- what follows from them ---------------------------------------------------------------------------------
+# --- derived tables -----------------------------------------------------------------------------------------
 
-LEAST = 3           # sizes of an order
-SHORTEST = 16       # spacings of the waves that make an order: (h/lambda)^4 takes 2 % of the error there
+LEAST = 3           # least number of sizes for an order
+SHORTEST = 16       # least wavelength for an order, in spacings: (h/lambda)^4 is 2 % of the error there
 NORMS = ["rms", "largest"]
 ROUND_OFF = 1e-10   # of sums
 NOTHING = Measured(np.nan, np.nan)
@@ -116,14 +116,14 @@ def derive(tables: Tables) -> Rows:
 
 
 def groups(rows: pd.DataFrame, table: Table, by: str) -> Iterator[tuple[Row, pd.DataFrame]]:
-    """The key of each row of a table, and the rows that it comes from, sorted."""
+    """The key of each row of a derived table, and the rows that it is derived from, sorted."""
     key = list(table.key)
     for values, group in rows.sort_values(by, kind="stable").groupby(key):
         yield dict(zip(key, values, strict=True)), group
 
 
 def orders(rows: pd.DataFrame) -> Iterator[Row]:
-    """One row a term: the slope of its error, and its projection in the limit of no spacing."""
+    """One row per term: the order of its error, and its projection in the limit of zero spacing."""
     for key, group in groups(rows, ORDERS, "cells"):
         if len(group) >= LEAST:
             a = 1/group["cells"].to_numpy()
@@ -133,7 +133,7 @@ def orders(rows: pd.DataFrame) -> Iterator[Row]:
 
 
 def extrapolated(a: np.ndarray, values: np.ndarray) -> Measured:
-    """Limit of values = limit + C a^2 from the two finest; error: the distance to that of the two before."""
+    """Limit of values = limit + C a^2 from the two finest; error: distance from that of the two before."""
     coarse = at_zero(a[-3:-1]**2)@values[-3:-1]
     fine = at_zero(a[-2:]**2)@values[-2:]
     return Measured(fine, abs(fine - coarse))
@@ -145,21 +145,21 @@ def at_zero(x: np.ndarray) -> np.ndarray:
 
 
 def growth_means(rows: pd.DataFrame) -> Iterator[Row]:
-    """Over sets of points, and the largest of them."""
+    """Growth rates: means over sets of points, and the largest of all sets."""
     largest = rows.groupby(list(GROWTH_MEANS.key))["rate"].max()
     for mean, rate in zip(seed_means(rows, GROWTH_MEANS.key, ("rate", "closure")), largest, strict=True):
         yield mean | {"largest": rate}
 
 
 def coefficients(waves: pd.DataFrame) -> Iterator[Row]:
-    """One row a wave; errors from within the runs or from the scatter between point sets: the larger."""
+    """One row per wave, means over sets of points; errors of the runs or scatter of the sets: the larger."""
     for mean in seed_means(waves, [*COEFFICIENTS.key, "continuum"], ["measured"]):
         error = Measured(mean["measured"], mean["measured_err"])/mean["continuum"] - 1
         yield mean | with_errors(error=error)
 
 
 def transport_orders(waves: pd.DataFrame) -> Iterator[Row]:
-    """Over the wavelengths where the error is told from zero."""
+    """Orders of errors in 1/wavelength, from errors that differ from zero; errors for infinite waves."""
     rows = pd.DataFrame(coefficients(waves)).query("wavelength >= @SHORTEST")
     for key, group in groups(rows, TRANSPORT_ORDERS, "wavelength"):
         sure = group[group["error"].abs() > group["error_err"]]
@@ -169,9 +169,9 @@ def transport_orders(waves: pd.DataFrame) -> Iterator[Row]:
 
 
 def endless(length: np.ndarray, error: np.ndarray, err: np.ndarray) -> Measured:
-    """The error for endless waves, from error = long + c/length^2 + e/length^4 through the three longest.
+    """The error for infinite waves, from error = long + c/length^2 + e/length^4 through the three longest.
 
-    Its error: the distance to what the two longest give without the last term, and the errors of all three.
+    Its error: the distance from the limit of the two longest without the last term, and errors of all three.
     """
     if len(length) < LEAST:
         return NOTHING
@@ -182,12 +182,12 @@ def endless(length: np.ndarray, error: np.ndarray, err: np.ndarray) -> Measured:
 
 
 def shear_means(rows: pd.DataFrame) -> Iterator[Row]:
-    """Over sets of points."""
+    """Errors of shear flows: means over sets of points."""
     return seed_means(rows, SHEAR_MEANS.key, NORMS)
 
 
 def shear_orders(rows: pd.DataFrame) -> Iterator[Row]:
-    """Over the numbers of rows, all runs in one fit: three runs of a size show their scatter badly."""
+    """Orders of these errors in 1/rows, all runs in one fit: three runs of a size estimate scatter badly."""
     errors = rows.melt(["flow", "points", "time", "rows"], NORMS, "norm", "error")
     for key, group in groups(errors, SHEAR_ORDERS, "rows"):
         if group["rows"].nunique() >= LEAST:
@@ -198,13 +198,13 @@ ERRORS = ["closure", "linear", "deviator", "divergence", "gradient", "laplacian"
 
 
 def wall_orders(rows: pd.DataFrame) -> Iterator[Row]:
-    """The same of heat through plates."""
+    """Orders of the errors of heat through plates."""
     for row in maker_orders(rows, ["wall"]):
         yield {name: value for name, value in row.items() if name != "quantity"}
 
 
 def maker_orders(rows: pd.DataFrame, quantities: list[str] = ERRORS) -> Iterator[Row]:
-    """Over the cells, all runs in one fit; round-off has no order."""
+    """Orders of makers' errors in 1/cells, all runs in one fit; round-off has none. Means at the finest."""
     errors = rows.melt(["maker", "points", "cells"], quantities, "quantity", "error")
     for key, group in groups(errors, MAKER_ORDERS, "cells"):
         finest = combine([(error, 0.0) for error in group["error"][group["cells"] == group["cells"].max()]])
@@ -213,7 +213,7 @@ def maker_orders(rows: pd.DataFrame, quantities: list[str] = ERRORS) -> Iterator
         yield key | with_errors(order=order, finest=finest)
 
 
-#: table that is derived -> the table that it follows from, and how
+#: derived table -> its source, and the function that derives it
 DERIVED = {"orders": ("equations", orders), "growth_means": ("growth", growth_means),
            "coefficients": ("waves", coefficients), "transport_orders": ("waves", transport_orders),
            "shear_means": ("shear", shear_means), "shear_orders": ("shear", shear_orders),

@@ -1,11 +1,11 @@
-"""Transport in time: waves that decay, shear flows between plates    [RR98 Eqs 34-38, 51, Sec. III A]
+"""Transport in time: decaying waves, shear flows between plates    [RR98 Eqs 34-38, 51, Sec. III A]
 
-Waves along x: density, velocity along, temperature and velocity across get a wave each in turn. RK4 advances
-the full equations. What all four are after equal times makes propagators U_1, U_2, U_3 (4, 4) of the
-amplitudes. The matrix of rates is log(U_3 U_2^-1)/t: what is no plane wave has died out or rings by then.
+Waves along x: a wave is given to density, velocity along x, temperature, velocity across x, one at a time.
+RK4 advances the full equations. The amplitudes after times t, 2 t, 3 t form propagators U_1, U_2, U_3 (4, 4).
+The matrix of rates is log(U_3 U_2^-1)/t: by then all but plane waves has died out or oscillates.
 
-Shear flows: RR98 leaves walls open. Here they are mirror images, friction seeing 2 U - v behind a plate that
-slides with U, or rows of points that are held (`Stream`): triangles off a lattice see a kink in images.
+Shear flows: RR98 leaves walls open. Here they are mirror images, with 2 U - v for friction behind a plate
+that slides with U, or rows of held points (`Stream`): off a lattice triangles see a kink at images.
 """
 from collections.abc import Callable, Iterator
 from functools import partial
@@ -38,21 +38,21 @@ from studies.kit.stats import Measured
 from studies.kit.table import Row
 from studies.operators.scheme import PointSet
 
-AMPLITUDE = 1e-5    # its square is the share of waves that feed back on the first; round-off over it is 1e-11
-STEPS = 10          # at least, in a radian of sound: RK4 is off by 5 (1/10)^4/120 of a rate
+AMPLITUDE = 1e-5    # of waves: nonlinear feedback is about its square, round-off over it is 1e-11
+STEPS = 10          # least steps in a radian of sound: RK4's relative error of a rate is 5 (1/10)^4/120
 TRUNCATION = 5*STEPS**-4/120
-MARGIN = 1.25       # of the step to its limit
+MARGIN = 1.25       # stability limit over the time step
 ETA, KAPPA = 0.3, 0.4
 GAS = LinearGas(0.3, 0.2, 0.4)
-LONG = 5000.0       # spacings of a wave that is endless to four digits
+LONG = 5000.0       # wavelength in spacings, infinite to four digits
 
 LAW = ConstEta(0.5, 0.5)                # of shear flows
 TIMES = (0.02, 0.05, 0.1, 0.2, 0.5)     # in height^2/nu
-INTERVAL = 0.01                         # of which all of these are multiples
-SPEED = 1e-3        # of the flow: heating and compression are of the order of its square, 1e-6 of it
-COLUMNS = 8         # nothing depends on x but where points are
+INTERVAL = 0.01                         # all TIMES are multiples of it
+SPEED = 1e-3        # of the flow: heating and compression are of the order of its square
+COLUMNS = 8         # of points: nothing but the places of points depends on x
 JITTER = 0.2        # spacings, of points between plates
-OF_LIMIT = 0.5      # of the step to its limit: RK4's own errors are (0.02)^4 of a decay
+OF_LIMIT = 0.5      # time step over its stability limit: RK4's own errors are (0.02)^4 of a decay
 
 
 # --- waves --------------------------------------------------------------------------------------------------
@@ -61,7 +61,7 @@ OF_LIMIT = 0.5      # of the step to its limit: RK4's own errors are (0.02)^4 of
 def propagators(dih: Dih, x: np.ndarray, k: float, time: float, phases: tuple[float, ...]) -> np.ndarray:
     """U (2 or 3, 4, 4) of amplitudes (rho, u, T, v) after `time`, twice and off a lattice three times that.
 
-    phases : 0 alone where all places are alike, else (0, pi/2), for real and imaginary part of exp(ikx).
+    phases : (0,) if all places are alike, else (0, pi/2), for real and imaginary part of exp(ikx).
     """
     place = k*x[:, 0]
     steps = max(STEPS, ceil(MARGIN*time/step_limit(dih)))
@@ -77,7 +77,7 @@ def propagators(dih: Dih, x: np.ndarray, k: float, time: float, phases: tuple[fl
 
 
 def start(dih: Dih, wave: np.ndarray, field: int) -> np.ndarray:
-    """Rest at rho = T = 1, with a wave in one of (rho, u, T, v)."""
+    """State at rest, rho = T = 1, with a wave in one of (rho, u, T, v)."""
     fields = np.outer([1.0, 0.0, 1.0, 0.0], np.ones_like(wave))
     fields[field] += wave
     rho, u, T, v = fields
@@ -85,7 +85,7 @@ def start(dih: Dih, wave: np.ndarray, field: int) -> np.ndarray:
 
 
 def amplitudes(dih: Dih, state: np.ndarray, place: np.ndarray) -> np.ndarray:
-    """Parts exp(ikx) of (rho, u, T, v)."""
+    """Fourier amplitudes of exp(ikx) in (rho, u, T, v)."""
     flow, V = dih.flow(state), dih.edges.V
     u, v = flow.v.T
     fields = np.stack([flow.rho - 1, u, flow.T - 1, v])
@@ -93,13 +93,13 @@ def amplitudes(dih: Dih, state: np.ndarray, place: np.ndarray) -> np.ndarray:
 
 
 def step_limit(dih: Dih) -> float:
-    """RK4: the fastest sound and the fastest diffusion that the edges know, at rho = T = 1."""
+    """Stable step of RK4, from the fastest sound and diffusion over the edges, at rho = T = 1."""
     sound, spread = dih.edges.fastest
     return 1/(np.sqrt(2)*sound/2.82 + (ETA + dih.zeta + KAPPA)*spread/2.78)
 
 
 def measured(dih: Dih, x: np.ndarray, k: float, phases: tuple[float, ...]) -> dict[str, Measured]:
-    """Quantities of the last of the times; errors: what the time before gives another one, and RK4's own."""
+    """`quantities` from the last interval; errors: the difference from the one before, plus RK4's own."""
     gas = LinearGas(ETA, dih.zeta, KAPPA)
     time = 1/np.abs(np.linalg.eigvals(continuum(gas, k).matrix)).max()
     U = np.array([np.eye(4), *propagators(dih, x, k, time, phases)])
@@ -114,7 +114,7 @@ WAYS = {"nested": NestedFluxes(), "pairwise": Pairwise()}
 
 
 class Decay(PointSet, table="waves", same="transport maker h points zeta wavelength seed"):
-    """Waves of one length along x, Lucy's weight, on counts of points along x and y. transport : of WAYS."""
+    """Decay of waves of one length along x, Lucy's weight; counts: points along x, y; transport: in WAYS."""
     transport: str
     zeta: float
 
@@ -126,11 +126,11 @@ class Decay(PointSet, table="waves", same="transport maker h points zeta wavelen
 
     @property
     def phases(self) -> tuple[float, ...]:
-        """Of the waves: on a lattice all places are alike."""
+        """Phases of the waves: one is enough on a lattice, where all places are alike."""
         return (0.0,) if self.points.name == "lattice" else (0.0, np.pi/2)
 
     def rows_of(self, points: Points, edges: Edges) -> Iterator[Row]:
-        """One a quantity."""
+        """One row per quantity."""
         k, way = 2*np.pi/self.wavelength, WAYS[self.transport]
         dih = Dih(edges=edges, eos=IdealGas(), law=ConstEta(ETA, KAPPA), zeta=self.zeta, transport=way)
         exact = quantities(continuum(LinearGas(ETA, self.zeta, KAPPA), k), k)
@@ -139,7 +139,7 @@ class Decay(PointSet, table="waves", same="transport maker h points zeta wavelen
 
 
 def of_edges() -> dict[str, float]:
-    """Largest error of both viscosities of forces along edges: long waves along an axis, by the symbol."""
+    """Largest relative error of both viscosities of forces along edges, from symbols of long waves."""
     k = 2*np.pi/LONG
     values = quantities(lattice_waves(GAS, Lucy.of(h=8.0), np.array([k, 0.0]), nested=False), k)
     shear, bulk = values["viscosity"]/GAS.eta - 1, values["bulk viscosity"]/GAS.zeta - 1
@@ -150,7 +150,7 @@ def of_edges() -> dict[str, float]:
 
 
 class Drive(NamedTuple):
-    """What makes a flow: speed of the upper plate, force height^2/(8 nu), both in SPEED; exact u/SPEED."""
+    """Drive of a flow: speed of the upper plate, force height^2/(8 nu), both in SPEED; exact u/SPEED."""
     name: str
     slide: float
     force: float
@@ -162,7 +162,7 @@ class Drive(NamedTuple):
 
 
 def between_images(drive: Drive, rows: int, seed: int, jitter: float, make: Callable) -> Driven:
-    """A layer of jittered points between plates that slide, with images behind; Lucy's weight, h = 2."""
+    """A layer of jittered points between sliding plates with mirror images; Lucy's weight, h = 2."""
     x = positions(COLUMNS, rows, jitter, seed)
     edges, beyond = between_plates(make, x, COLUMNS, rows, Lucy.of(h=2.0))
     return Driven(x=x, edges=edges, beyond=beyond, eos=IdealGas(), law=LAW, T_plates=(1.0, 1.0), g=0.0,
@@ -170,14 +170,14 @@ def between_images(drive: Drive, rows: int, seed: int, jitter: float, make: Call
 
 
 def between_rows(drive: Drive, rows: int, seed: int) -> Stream:
-    """Jittered points with Delaunay edges that end on rows of points on the plates."""
+    """Jittered points with Delaunay edges that end on rows of held points on the plates."""
     x, sides = with_sides(jittered((COLUMNS, rows - 1), JITTER, seed).x, (COLUMNS, rows))
     plates = together(held(sides.bottom, T=1.0), held(sides.top, (drive.slide*SPEED, 0.0), T=1.0))
     return Stream(x=x, edges=between(x, COLUMNS, rows), eos=IdealGas(), law=LAW, held=plates,
                   push=(drive.push(rows), 0.0))
 
 
-#: points and plates -> the method of a drive, a number of rows and a seed
+#: points and plates -> function of (drive, rows, seed) that makes the method
 BETWEEN: dict[str, Callable] = {
     "lattice": partial(between_images, jitter=0.0, make=renormalised),
     "jittered-0.2": partial(between_images, jitter=JITTER, make=delaunay),
@@ -185,7 +185,7 @@ BETWEEN: dict[str, Callable] = {
 
 
 class ShearFlow(Case, table="shear", same="flow points rows seed"):
-    """One flow from rest, `rows` spacings high, against its exact series; points : of BETWEEN."""
+    """Errors of one flow from rest, `rows` spacings high, against its exact series; points : of BETWEEN."""
     flow: Drive
     points: str
     rows: int

@@ -14,10 +14,10 @@ from studies.kit.case import Case, Report
 from studies.kit.stats import Measured
 from studies.kit.table import Row
 
-WAVES = (0.3, 1.0, 2.0, 4.0)        # k r0 at which the interpolant is held against the smoothed field
+WAVES = (0.3, 1.0, 2.0, 4.0)        # k r0 at which the interpolant is compared with the smoothed field
 MOMENTS = (1, 2, 3, 4)
-SMALL = 0.1         # k r0 at which the order is taken
-TAIL = 26.0         # r0 of the exponential weight beyond which 1e-9 of the first moment lies
+SMALL = 0.1         # k r0 at which the order in k is measured
+TAIL = 26.0         # in r0: 1e-9 of the first moment of the exponential weight lies beyond
 
 #: means over directions e of cos(z e_x) and of e_x sin(z e_x), by dimension
 COSINE: dict[int, Callable] = {1: np.cos, 2: j0, 3: lambda z: np.sinc(z/np.pi)}
@@ -25,7 +25,7 @@ PULL: dict[int, Callable] = {1: np.sin, 2: j1, 3: lambda z: spherical_jn(1, z)}
 
 
 def weight_of(kind: Any, r0: float, d: int) -> Any:
-    """The weight of width r0: compact ones of that range."""
+    """The weight of width r0, which is the range of compact weights."""
     return kind.of(h=r0, d=d) if hasattr(kind, "of") else kind(r0, d)
 
 
@@ -45,7 +45,7 @@ def power_of(g: Callable, weight: Any, d: int, n: int) -> Measured:
 
 
 def smoothed(weight: Any, d: int, k: float) -> Measured:
-    """f^(k), what is left of a wave that is smoothed with f."""
+    """f^(k): amplitude that remains of a wave smoothed with f."""
     return integral(weight, d, lambda r: f(weight, r)*COSINE[d](k*r))
 
 
@@ -60,7 +60,7 @@ def defect(weight: Any, d: int, k: float) -> float:
 
 
 def order(weight: Any, d: int) -> Measured:
-    """d ln(1 - f^)/d ln k at small k; the error is what halving k changes."""
+    """d ln(1 - f^)/d ln k at small k; the error is the change when k is halved."""
     k = SMALL/width(weight)
     coarse, fine = (np.log2(defect(weight, d, q)/defect(weight, d, q/2)) for q in (k, k/2))
     return Measured(float(fine), float(abs(fine - coarse)))
@@ -75,7 +75,7 @@ def symbol_error(weight: Any, d: int) -> Measured:
     return max(errors)
 
 
-#: by name, so that a new weight runs nothing again
+#: listed by name, so that a new weight does not make finished cases run again
 COMPACT = (Lucy, Monaghan, WendlandC2, WendlandC4, WendlandC6)
 
 
@@ -94,7 +94,7 @@ def of_weights() -> dict[str, float]:
 
 
 class Around(NamedTuple):
-    """Lattice points around one: x >= 0 along an axis, distance r, number of alike ones, x < 0 among them."""
+    """Lattice points around one: |x| along an axis, distance r, number of points that share both."""
     x: np.ndarray
     r: np.ndarray
     number: np.ndarray
@@ -114,7 +114,7 @@ def shells(d: int, most: int) -> np.ndarray:
 
 
 def around(distance: float, d: int) -> Around:
-    """The lattice points nearer than a distance, the middle left out."""
+    """The lattice points within a distance, without the central one."""
     n, most = np.arange(int(distance) + 1), int(distance**2)
     across = shells(d - 1, most)
     squared = n[:, None]**2 + np.flatnonzero(across)
@@ -125,14 +125,14 @@ def around(distance: float, d: int) -> Around:
 
 
 def span(weight: Any) -> float:
-    """How far sums go: to all points that a weight sees, but for 1e-9 of the exponential's first moment."""
+    """Radius of lattice sums: the reach of a weight, but TAIL for the exponential one."""
     return TAIL*weight.r0 if isinstance(weight, Exponential) else reach(weight)
 
 
 def counted(kind: Any, d: int) -> float:
-    """The integral of f without quadrature: its sum over a lattice with 200 points to r0, Gaussian 20.
+    """The integral of f without quadrature: its sum over a lattice of spacing r0/200, Gaussian r0/20.
 
-    Compact weights are made to have it by an integral over r; a second one would say nothing.
+    Compact weights are normalised by an integral over r; a second such integral would test nothing.
     """
     weight = weight_of(kind, 20.0 if kind is Gaussian else 200.0, d)
     at = around(reach(weight), d)
@@ -153,7 +153,7 @@ def quantities(kind: Any, d: int) -> Iterator[tuple[str, Measured, float]]:
 
 
 class Continuum(Case, table="continuum", same="weight d"):
-    """A kind of weight in d dimensions, before anything is discretised."""
+    """Integrals of a kind of weight in d dimensions, before discretisation."""
     weight: Any
     d: int
 
