@@ -47,8 +47,8 @@ class Blended(Scheme):
 
 
 class Around(NamedTuple):
-    """Jittered points around an insulated disc of radius `scene.disc`, in a periodic box. Triangles end at points
-    on its rim. flux : entropy-stable."""
+    """Jittered points around an insulated disc of radius `scene.disc`, in a periodic box. Triangles end at the
+    points on its rim. flux : entropy-stable."""
     name: str
     flux: bool = False
     size: float = 0.3
