@@ -106,7 +106,7 @@ class Sides(NamedTuple):
 
 
 class HeatPath(NamedTuple):
-    """Axis of the heat flux (0: x, 1: y); the left or lower side is dT hotter than the other, `length` off."""
+    """Axis of the heat flux (0: x, 1: y), temperature by which its left or lower side is hotter, length."""
     axis: int
     dT: float
     length: float
