@@ -1,4 +1,4 @@
-"""A box of gas between sides of one's own choice: a scene like `continuum.scene.RayleighBenard`."""
+"""A box of gas between any four sides: a scene like `continuum.scene.RayleighBenard`."""
 from collections.abc import Callable
 from dataclasses import MISSING, dataclass, fields, replace
 from difflib import get_close_matches
@@ -13,12 +13,12 @@ from continuum.fluid import ConstEta, IdealGas, check_eos, check_state, energy, 
 from continuum.scene import positive
 from continuum.sides import HeatPath, Periodic, Plate, Sides, Sliding, Torus, adiabatic, check_sides, warm
 
-HEIGHTS, PASSES = 401, 8    # of the density at rest; the second pass is exact for an ideal gas
+HEIGHTS, PASSES = 401, 8    # for the density at rest; for an ideal gas the second pass is exact
 Start = tuple[np.ndarray, np.ndarray, np.ndarray]
 
 
 def spelled(kind: Any) -> Any:
-    """A dataclass that answers an unknown keyword with names like it, and a missing one with all needed."""
+    """Let the constructor of a dataclass raise TypeError with similar keywords, or with all required ones."""
     names, plain = [field.name for field in fields(kind)], kind.__init__
     needed = [field.name for field in fields(kind) if field.default is MISSING]
 
@@ -39,12 +39,12 @@ def spelled(kind: Any) -> Any:
 @spelled
 @dataclass(frozen=True, kw_only=True)
 class Domain:
-    """A box of mean density 1 between four sides, its middle at the origin.
+    """A box of gas of mean density 1 between four sides, centred at the origin.
 
-    L : height in spacings, which fixes the unit of length. aspect : width/height. left, right, bottom, top :
+    L : height in spacings, the units of length. aspect : width/height. left, right, bottom, top :
     Periodic(), Plate(T or q), Slip(T or q), Sliding(v, T or q). eta, k : viscosity and conductivity. g :
     gravity, downwards. start : x (n, 2) -> density (n,), velocity (n, 2), temperature (n,); by default the
-    gas rests at the mean temperature of the sides, as dense as gravity makes it.
+    gas is at rest in hydrostatic equilibrium at T_mean, the mean temperature of the sides.
     """
     L: float
     eta: float
@@ -71,46 +71,46 @@ class Domain:
 
     @property
     def four(self) -> Sides:
-        """All sides as they were given, numbers as floats."""
+        """The four sides as given, their numbers as floats."""
         return Sides(*(side._make(map(float, side)) if hasattr(side, "_make") else side
                        for side in (self.left, self.right, self.bottom, self.top)))
 
     @property
     def sides(self) -> Any:
-        """`Torus()` or `Periodic()` where these say it all, so that every method knows them."""
+        """`Torus()` or, for a layer, `Periodic()`, which every method knows; else the four sides."""
         if self.four.axes == (True, True):
             return Torus()
         return Periodic() if self.layer else self.four
 
     @property
     def layer(self) -> bool:
-        """Periodic sides; plates of given temperatures, of which the upper one may slide."""
+        """True with periodic sides between plates of given temperatures, of which the upper one may slide."""
         kinds = isinstance(self.bottom, Plate) and isinstance(self.top, (Plate, Sliding))
         return isinstance(self.left, Periodic) and kinds and warm(self.bottom) and warm(self.top)
 
     @property
     def slide(self) -> float:
-        """Velocity of the upper plate of a layer."""
+        """Velocity of the upper plate of a layer, else 0."""
         return float(getattr(self.top, "v", 0.0)) if self.layer else 0.0
 
     @property
     def temperatures(self) -> list[float]:
-        """Those that sides have, lowest first."""
+        """Given temperatures of the sides, lowest first."""
         return sorted(side.T for side in self.four if warm(side))
 
     @property
     def T_hot(self) -> float:
-        """Of the lower plate of a layer, else of the hottest side."""
+        """Temperature of the lower plate of a layer, else of the hottest side."""
         return self.four.bottom.T if self.layer else (self.temperatures or [1.0])[-1]
 
     @property
     def T_cold(self) -> float:
-        """Of the upper plate of a layer, else of the coldest side."""
+        """Temperature of the upper plate of a layer, else of the coldest side."""
         return self.four.top.T if self.layer else (self.temperatures or [1.0])[0]
 
     @property
     def T_mean(self) -> float:
-        """1 where no side has a temperature."""
+        """(T_hot + T_cold)/2; 1 if no side has a temperature."""
         return (self.T_hot + self.T_cold)/2
 
     @property
@@ -127,12 +127,12 @@ class Domain:
 
     @property
     def time(self) -> float:
-        """L^2/nu at density 1."""
+        """Viscous time L^2/nu at density 1."""
         return self.L**2/self.eta
 
     @property
     def heating(self) -> HeatPath | None:
-        """The way of the heat between two sides of different temperatures, if the others let none through."""
+        """Heat path between opposite sides of different temperatures, if the others are adiabatic."""
         pairs = (self.four[:2], self.width), (self.four[2:], self.L)
         for axis, (ends, length) in enumerate(pairs):
             beside = pairs[1 - axis][0]
@@ -141,13 +141,13 @@ class Domain:
         return None
 
     def resized(self, L: float) -> "Domain":
-        """The same flow on another number of rows: what counts in spacings goes along."""
+        """The same flow with another number of rows L: quantities in units of spacings are scaled."""
         by = L/self.L
         start = self.start and partial(_from_other, self.start, by)
         return replace(self, L=L, eta=by*self.eta, k=by*self.k, g=self.g/by, start=start)
 
     def fields(self, x: np.ndarray) -> Start:
-        """Density (n,), velocity (n, 2), temperature (n,) at the start, at places (n, 2)."""
+        """Initial density (n,), velocity (n, 2), temperature (n,) at positions (n, 2)."""
         if self.start is not None:
             return self.start(x)
         rho = at_rest(self.eos, self.T_mean, self.g, self.L, x[:, 1]) if self.g else np.ones(len(x))
@@ -155,12 +155,12 @@ class Domain:
 
 
 def _from_other(start: Callable, by: float, x: np.ndarray) -> Start:
-    """A start in a box that was 1/by as high."""
+    """The start of a box that is 1/by as high, at positions x of the resized one."""
     return start(x/by)
 
 
 def at_rest(eos: Any, T: float, g: float, L: float, y: np.ndarray) -> np.ndarray:
-    """Density at heights y of a gas of one temperature that carries its weight, of mean 1 over -L/2..L/2."""
+    """Hydrostatic density at heights y of a gas of uniform temperature T, with mean 1 over -L/2..L/2."""
     heights, lowest = np.linspace(-L/2, L/2, HEIGHTS), 1.0
     for _ in range(PASSES):
         rho = odeint(lambda rho, _: -g*rho/stiffness(eos, rho, T), lowest, heights, rtol=1e-10)[:, 0]

@@ -1,7 +1,7 @@
-"""Constitutive relations, used by every solver: equations of state, transport, stress.
+"""Constitutive relations of all solvers: equations of state, transport laws, stress.
 
 Units of KHP95: m = kB = sigma = epsilon = 1. `rho` is mass per area, `e` internal energy per mass, `T`
-temperature. Every relation is plain arithmetic: it takes numbers or arrays, in Python and in compiled code.
+temperature. Every relation is plain arithmetic on numbers or arrays, in Python and in compiled code.
 An equation of state or a transport law is a NamedTuple; a new one is a class and its formulas in this file.
 """
 from functools import wraps
@@ -11,12 +11,12 @@ import numpy as np
 
 from continuum.jit import check_formulas, formula, generic
 
-#: of laws; those of another name may have either sign
+#: numbers of laws that must not be negative; others may have either sign
 NOT_NEGATIVE = ("b", "eta", "k", "nu", "kappa")
 
 
 def _numbers(kind: type) -> type:
-    """A law whose numbers are refused where they are infinite, none, negative where that means nothing."""
+    """Let a law check its numbers: finite, and not negative in `NOT_NEGATIVE`. Raises ValueError."""
     plain: Any = kind.__new__
 
     @wraps(plain)       # compiled code reads the signature
@@ -51,16 +51,16 @@ class VanDerWaals(NamedTuple):
 
 @_numbers
 class DenseFluid(NamedTuple):
-    """Quadratic fit to molecular dynamics about rho = 1, T = 1, e = 1.443    [KHP95, Eq. 3]
+    """Quadratic fit to molecular dynamics around rho = 1, T = 1, e = 1.443    [KHP95, Eq. 3]
 
-    The printed T(rho, e) and e(rho, T) are separate expansions: at rho = 1, T(rho, e(rho, T)) - 1 is 1.05 (T
-    - 1), and P and e satisfy the Maxwell relation not even at the reference state [KHP95, Sec. IV].
+    The printed T(rho, e) and e(rho, T) are separate expansions: at rho = 1, T(rho, e(rho, T)) - 1 is
+    1.05 (T - 1). P and e violate the Maxwell relation even at the reference state [KHP95, Sec. IV].
     """
     cv: float = 1.5
 
 
 class Fields(NamedTuple):
-    """Places x (n, d), nan if a method has none, velocities v (n, d), density, temperature, volume (n,)."""
+    """Positions x (n, d), nan if a method has none, velocity v (n, d), density, temperature, volume (n,)."""
     x: np.ndarray
     v: np.ndarray
     rho: np.ndarray
@@ -90,7 +90,7 @@ def pressure_slopes(eos, rho, e):
 
 @generic
 def thermal_pressure(eos, rho, T):
-    """dP/dT at constant rho; times |dT/dy|/rho the gravity that keeps rho constant in a layer at rest."""
+    """dP/dT at constant rho; times |dT/dy|/rho it is the gravity that keeps rho uniform in a still layer."""
 
 
 @generic
@@ -153,7 +153,7 @@ def _(eos, rho, T):
 
 @valid.of(DenseFluid)
 def _(eos, rho, e):
-    # the fit has no physical edge: outside, its sound speed or its temperature stops being positive
+    # the fit has no physical limit: it is valid while sound speed squared and temperature are positive
     slopes = pressure_slopes(eos, rho, e)
     stiff = slopes[0] + pressure(eos, rho, e)/rho**2*slopes[1] > 0
     return (rho > 0) & stiff & (temperature(eos, rho, e) > 0)
@@ -164,7 +164,7 @@ EQUATIONS_OF_STATE = {"ideal": IdealGas(), "vdw": VanDerWaals(), "dense": DenseF
 
 @formula
 def sound_speed(eos, rho, e):
-    """c = sqrt(dP/drho + (P/rho^2) dP/de), the slope of the pressure along an isentrope."""
+    """c = sqrt(dP/drho + (P/rho^2) dP/de), from the slope of the pressure along an isentrope."""
     by_rho, by_e = pressure_slopes(eos, rho, e)
     return np.sqrt(by_rho + pressure(eos, rho, e)/rho**2*by_e)
 
@@ -178,13 +178,13 @@ def expansivity(eos, rho: float, T: float) -> float:
 
 
 def check_eos(eos: Any) -> None:
-    """Refuse an equation of state that lacks formulas: TypeError. A class itself is refused by `energy`."""
+    """Check that the equation of state has all formulas: TypeError. A class itself is left to `energy`."""
     if not isinstance(eos, type):
         check_formulas(eos, pressure, temperature, energy, pressure_slopes, thermal_pressure, valid)
 
 
 def check_state(eos, rho: Any, e: Any) -> None:
-    """Raise ValueError with the first state outside of the validity of the equation of state."""
+    """Raise ValueError for the first state for which the equation of state is not valid."""
     rho, e = np.broadcast_arrays(rho, e)
     bad = np.flatnonzero(~valid(eos, rho, e))
     if bad.size:
@@ -211,7 +211,7 @@ class ConstNu(NamedTuple):
 
 @_numbers
 class PowerLaw(NamedTuple):
-    """eta and k proportional to rho^m T^n: an example of transport as a function of the state."""
+    """eta and k proportional to rho^m T^n: an example of transport that depends on the state."""
     eta: float
     k: float
     m: float = 0.0
@@ -230,7 +230,7 @@ def conductivity(transport, rho, T):
 
 @generic
 def bulk_viscosity(law, rho, T):
-    """Bulk viscosity zeta(rho, T); a number is constant."""
+    """Bulk viscosity zeta(rho, T); a number as law is constant."""
 
 
 viscosity.of(ConstEta)(lambda transport, rho, T: transport.eta)
@@ -244,14 +244,14 @@ for _number in (int, float, np.float64):
 
 
 def diffusivity(eos, law, rho, e):
-    """The larger one of nu and of k/(rho de/dT), that of heat, at (rho, e)."""
+    """The larger of kinematic viscosity nu and thermal diffusivity k/(rho de/dT) at (rho, e)."""
     T = temperature(eos, rho, e)
     slope = (temperature(eos, rho, e + 1e-6) - T)/1e-6
     return np.maximum(viscosity(law, rho, T), conductivity(law, rho, T)*slope)/rho
 
 
 def constant_viscosity(law: Any) -> bool:
-    """Is the shear viscosity the same in all states? Unknown laws are taken to vary."""
+    """True if the shear viscosity is the same in all states; unknown laws count as varying."""
     return isinstance(law, ConstEta)
 
 

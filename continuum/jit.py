@@ -1,7 +1,7 @@
-"""numba's settings, once, and formulas that are chosen by the type of what a scene lists.
+"""numba's settings in one place, and generic functions whose formula depends on the type of an argument.
 
-It names the disk cache of compiled code after all sources: numba itself notices a change only in the file of
-the compiled function, and goes on with what it had compiled of the others.
+The folder of the disk cache is named after a hash of all sources: numba itself notices a change only in the
+file of the compiled function, and would keep stale code of functions in other files.
 """
 import hashlib
 import os
@@ -23,21 +23,21 @@ def source_hash() -> str:
 
 os.environ.setdefault("NUMBA_CACHE_DIR", str(ROOT / ".numba_cache" / source_hash()))
 
-import llvmlite.binding  # noqa: E402  (numba reads where the cache is when it is imported)
+import llvmlite.binding  # noqa: E402  (numba reads the cache folder when it is imported)
 import numba  # noqa: E402
 from numba.core import caching  # noqa: E402
 from numba.extending import overload, register_jitable  # noqa: E402
 
 import continuum.linking  # noqa: E402, F401  (before anything is compiled)
 
-# another module may have imported it before
+# another module may have imported numba before
 numba.config.CACHE_DIR = os.environ["NUMBA_CACHE_DIR"]  # type: ignore[attr-defined]
 
 _load_index = caching.IndexDataCacheFile._load_index
 
 
 def _load_index_if_known(file: Any) -> dict:
-    """numba's index of compiled code; empty where it names types of another program and numba would stop."""
+    """numba's index of compiled code; empty if it names types that cannot be imported, where numba stops."""
     try:
         return _load_index(file)
     except (ImportError, AttributeError):
@@ -46,21 +46,21 @@ def _load_index_if_known(file: Any) -> dict:
 
 setattr(caching.IndexDataCacheFile, "_load_index", _load_index_if_known)  # noqa: B010  (mypy allows it so)
 
-# NaN must stay NaN (divergence is looked for), so not the whole of fastmath
+# not all of fastmath: NaN must stay NaN, since divergence is checked for
 FASTMATH = {"contract", "reassoc", "arcp", "nsz"}
 OPTIONS: dict[str, Any] = {"error_model": "numpy", "fastmath": FASTMATH}
 
-#: compiled, kept on disk, free of Python's lock so that threads can share the rows of one loop
+#: compile, cache on disk, release Python's lock so that threads can share the rows of one loop
 jit = numba.njit(cache=True, nogil=True, **OPTIONS)
-#: four float64 a vector: with eight, `jit_records` spends more on putting them together than it saves
+#: four float64 a vector: with eight, code of `jit_records` loses more on packing vectors than it saves
 llvmlite.binding.set_option("fluidized-grid", "-slp-max-reg-size=256")
 
 
 def jit_records(function: Callable) -> Any:
-    """Compile with sums in the written order and LLVM's SLP vectoriser, as loops over records want it.
+    """Compile a loop over records: with LLVM's SLP vectoriser, sums in the written order.
 
     SLP puts equal operations on neighbouring fields into one vector instruction. LLVM 14 miscompiled with it:
-    it is for loops only that tests hold against a slow twin. Reassociation gathers fields, twice as slow.
+    use it only for loops that tests compare with a slow twin. Reassociation gathers fields, twice as slow.
     """
     compiled: Any = numba.njit(cache=True, nogil=True, error_model="numpy",
                                fastmath=FASTMATH - {"reassoc"})(function)
@@ -69,7 +69,7 @@ def jit_records(function: Callable) -> Any:
     def compile_with_slp(signature):
         config = numba.config
         before = config.SLP_VECTORIZE, config.LOOP_VECTORIZE
-        # several rows at a time would be gathered and scattered
+        # vectors over several rows would need gather and scatter
         config.SLP_VECTORIZE, config.LOOP_VECTORIZE = 1, 0
         try:
             return plain(signature)
@@ -81,9 +81,8 @@ def jit_records(function: Callable) -> Any:
 
 
 def jit_apart(function: Callable) -> Any:
-    """Compile for arrays none of which overlaps another, so that loops that read here and there in one and
-    write to another become vector instructions; branches and calls in them must be such that both sides can
-    be computed."""
+    """Compile for arrays that do not overlap each other, so that loops that read scattered entries of one and
+    write to another are vectorised. Both sides of each branch in them must be computable."""
     compiled: Any = numba.njit(cache=True, nogil=True, forceinline=True, **OPTIONS)(function)
 
     def customize(flags):
@@ -94,21 +93,21 @@ def jit_apart(function: Callable) -> Any:
     return compiled
 
 
-#: plain arithmetic that serves numbers, arrays and compiled code alike
+#: plain arithmetic, for numbers, arrays and compiled code alike
 formula = register_jitable(**OPTIONS)
 
 
 def place(frame: Any) -> str:
-    """File and line of a statement of a module; nothing in a function or a notebook."""
+    """File and line of a statement at module level; empty in a function or a notebook."""
     code = frame.f_code
     return (f"{code.co_filename}:{frame.f_lineno}"
             if code.co_name == "<module>" and Path(code.co_filename).is_file() else "")
 
 
 def generic(stub: Callable) -> Any:
-    """A function whose formula is chosen by the type of its first argument, or a parent class.
+    """Generic function: the type of the first argument, or its nearest parent class, chooses the formula.
 
-    ``@pressure.of(IdealGas)`` adds a formula; calling works from Python and from compiled code. TypeError: no
+    ``@pressure.of(IdealGas)`` adds a formula; Python and compiled code can call the function. TypeError: no
     formula for that type, or a class in place of an object. ValueError: two formulas for one type.
     """
     table: dict[type, Callable] = {}
@@ -148,7 +147,7 @@ def generic(stub: Callable) -> Any:
 
 
 def check_formulas(value: Any, *functions: Any) -> None:
-    """Refuse an object of a class that any of these generic functions has no formula for: TypeError."""
+    """Check that each of these generic functions has a formula for the value. Raises TypeError."""
     kind = type(value)
     if lacking := [one.__name__ for one in functions if not any(base in one.kinds for base in kind.__mro__)]:
         lines = ", ".join(f"@{name}.of({kind.__name__})" for name in lacking)

@@ -1,14 +1,14 @@
 """Linear stability of a Boussinesq fluid heated from below: growth rates, critical Rayleigh numbers.
 
 Free-fall units: height H, temperature difference and sqrt(g alpha dT H) are 1, so that nu = sqrt(Pr/Ra) and
-kappa = 1/sqrt(Pr Ra). A disturbance w(z), theta(z) times cos(kx) exp(sigma t), with Lap = d2/dz2 - k^2, obeys
+kappa = 1/sqrt(Pr Ra). Disturbances w(z), theta(z) times cos(kx) exp(sigma t), with Lap = d2/dz2 - k^2, obey
 
     sigma Lap w = nu Lap^2 w - k^2 theta,    sigma theta = w + kappa Lap theta.
 
 Multiplied by -w and by k^2 theta and integrated over the height this is a symmetric eigenvalue problem. Trial
-functions are Chebyshev polynomials times the factor that meets the conditions at the plates, integrals exact
-Gauss sums; w'' = 0 on a free plate follows from the variation. At onset, with nu = kappa, the work of
-buoyancy against dissipation has the eigenvalue Ra^-1/2.
+functions are Chebyshev polynomials times a factor that meets the conditions at the plates. Gauss sums give
+exact integrals; w'' = 0 on a free plate is a natural boundary condition. At onset, with nu = kappa, the
+matrix of buoyant work over that of dissipation has the largest eigenvalue Ra^-1/2.
 """
 from enum import Enum
 from functools import lru_cache
@@ -21,25 +21,25 @@ from scipy.optimize import minimize_scalar
 
 from continuum.scene import positive
 
-DEGREE = 20     # trial functions for w and for theta: Ra_c has its 12 figures from 14 on
-IN_SQUARE = 14  # in each direction: Ra_c has 8 figures; 8 gives 6
+DEGREE = 20     # trial functions for w and for theta each; from 14 on Ra_c has 12 figures
+IN_SQUARE = 14  # trial functions in each direction: Ra_c has 8 figures, with 8 functions 6
 
 
 class PlateKind(Enum):
-    """Multiplicity of the zero of w on (lower, upper) plate; 2: w = w' = 0, rigid; 1: w = w'' = 0, free."""
+    """Order of the zero of w on the (lower, upper) plate; 2: w = w' = 0, rigid; 1: w = w'' = 0, free."""
     RIGID = (2, 2)
     FREE = (1, 1)
     RIGID_FREE = (2, 1)
 
 
 class Critical(NamedTuple):
-    """Onset of the infinite layer: Rayleigh number, and wavenumber in 1/H."""
+    """Onset in the infinite layer: critical Rayleigh number and wavenumber in 1/H."""
     ra: float
     k: float
 
 
 class Forms(NamedTuple):
-    """The integrals of the variational form, matrices (DEGREE, DEGREE) of the trial functions."""
+    """Integrals of the variational form: matrices (degree, degree) over the trial functions."""
     inertia: np.ndarray         # w'^2 + k^2 w^2
     friction: np.ndarray        # (Lap w)^2
     heat: np.ndarray            # theta^2
@@ -58,7 +58,7 @@ def trial(below: int, above: int, degree: int) -> tuple[np.ndarray, np.ndarray, 
 
 
 def forms(k: float, plates: PlateKind, degree: int) -> Forms:
-    """All integrals at wavenumber k."""
+    """All matrices at wavenumber k."""
     dz, w, w1, w2 = trial(*plates.value, degree)
     _, theta, theta1, _ = trial(1, 1, degree)
     lap = w2 - k**2*w
@@ -70,7 +70,7 @@ def forms(k: float, plates: PlateKind, degree: int) -> Forms:
 
 
 def growth_rate(*, ra: float, pr: float, k: float, plates: PlateKind = PlateKind.RIGID) -> float:
-    """Largest growth rate sigma of wavenumber k (1/H), per free-fall time; negative below onset."""
+    """Largest growth rate sigma at wavenumber k (1/H), per free-fall time; negative below onset."""
     positive(ra=ra, pr=pr, k=k)
     nu, kappa = np.sqrt(pr/ra), 1/np.sqrt(pr*ra)
     i = forms(k, plates, DEGREE)
@@ -80,14 +80,14 @@ def growth_rate(*, ra: float, pr: float, k: float, plates: PlateKind = PlateKind
 
 
 def critical_ra(k: float, plates: PlateKind = PlateKind.RIGID, degree: int = DEGREE) -> float:
-    """The Rayleigh number at which wavenumber k (1/H) neither grows nor decays; it does not depend on Pr."""
+    """Rayleigh number at which wavenumber k (1/H) neither grows nor decays, for any Pr."""
     positive(k=k)
     i = forms(k, plates, degree)
     return onset(i.friction/k**2, i.conduction, i.lift)
 
 
 def onset(friction: np.ndarray, conduction: np.ndarray, lift: np.ndarray) -> float:
-    """The Ra at which the first disturbance grows: 1/sqrt(Ra) is the work of buoyancy over dissipation."""
+    """Lowest Ra at which a disturbance grows: 1/sqrt(Ra) is the largest buoyant work over dissipation."""
     none = np.zeros_like(lift)
     work = np.block([[none, lift], [lift.T, none]])
     return float(eigh(work, block_diag(friction, conduction), eigvals_only=True)[-1]**-2)
@@ -95,17 +95,17 @@ def onset(friction: np.ndarray, conduction: np.ndarray, lift: np.ndarray) -> flo
 
 @lru_cache
 def critical(plates: PlateKind = PlateKind.RIGID) -> Critical:
-    """Onset of the infinite layer: the smallest Ra over all wavenumbers."""
+    """Onset in the infinite layer: the smallest Ra over all wavenumbers."""
     lowest = minimize_scalar(lambda k: critical_ra(k, plates), bracket=(1.5, 2.5, 4.5),
                              options={"xtol": 1e-10})
     return Critical(ra=float(lowest.fun), k=float(lowest.x))
 
 
 def critical_ra_square() -> float:
-    """The Ra at which one roll grows in a square with rigid walls and sides of linear temperature.
+    """Ra at which a roll begins to grow in a square with rigid walls and sides of linear temperature.
 
     Streamfunction psi, w = d psi/dx, and temperature are products of the trial functions of a layer. psi and
-    its slope vanish on the walls: psi_xx psi_yy integrates to psi_xy^2.
+    its normal slope vanish on the walls, so that psi_xx psi_yy integrates to psi_xy^2.
     """
     dz, *psi = trial(2, 2, IN_SQUARE)
     _, T, T1, _ = trial(1, 1, IN_SQUARE)

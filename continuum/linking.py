@@ -1,9 +1,9 @@
-"""One result whatever was compiled before: compiled code calls its own copies of what it calls.
+"""Make results independent of what was compiled before: compiled code calls its own copies of callees.
 
-numba puts the optimised code of a function into each function that calls it, and optimises it once more
-there. What is not inlined stays as a copy under the old name. Loaded from disk alone a function finds its own
-copy. In the process that compiled both, LLVM takes the one that came first, whose sums may have another order
-and so other last digits. `continuum.jit` imports this module. Results are those of a filled cache, as before.
+numba copies the optimised code of a function into each of its callers and optimises it once more there. A
+copy that is not inlined keeps the old name. A caller loaded from disk alone calls its own copy. In a process
+that compiled both, LLVM calls the copy that came first, whose sums may have another order and so other last
+digits. `continuum.jit` imports this module. Results are those of a filled cache.
 """
 from typing import Any
 
@@ -14,7 +14,7 @@ _finalize = CPUCodeLibrary._finalize_final_module
 
 
 def _finalize_with_own_copies(library: Any) -> None:
-    """numba's last step, to machine code; for callers, which optimise them once more, copies stay open."""
+    """numba's last step, to machine code, with copies as internal symbols; callers get them as they were."""
     copies = [function for function in library._final_module.functions
               if not function.is_declaration and function.linkage == Linkage.linkonce_odr]
     for function in copies:

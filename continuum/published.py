@@ -1,7 +1,7 @@
-"""Numbers printed in papers: ``published("khp95-ke-5000")`` is 0.00340 with uncertainty, units and place.
+"""Numbers printed in papers: ``published("khp95-ke-5000")`` is 0.00340 with uncertainty, units and source.
 
-One file a paper, published/<paper>.csv; its head tells how the numbers were read and the known misprints.
-An id begins with the name of its file. A new reference is a new file; nothing else changes.
+Each paper has a file, published/<paper>.csv; its head says how the numbers were read and lists misprints.
+An id begins with the name of its file. A new paper is a new file; nothing else changes.
 """
 from dataclasses import dataclass
 from difflib import get_close_matches
@@ -10,12 +10,12 @@ from pathlib import Path
 
 import pandas as pd
 
-FOLDER = Path(__file__).with_suffix("")     # no __init__.py in it: as a package it would hide this module
+FOLDER = Path(__file__).with_suffix("")     # has no __init__.py: as a package it would hide this module
 
 
 @dataclass(frozen=True)
 class PrintedNumber:
-    """One printed number; ``uncertainty`` is 0 where it is a definition or a choice."""
+    """One printed number; ``uncertainty`` is 0 for a definition or a choice."""
     value: float
     uncertainty: float
     units: str
@@ -24,7 +24,7 @@ class PrintedNumber:
 
 
 def names() -> list[str]:
-    """The papers whose numbers are here."""
+    """Names of the papers, which are those of their files."""
     return sorted(path.stem for path in FOLDER.glob("*.csv"))
 
 
@@ -38,14 +38,14 @@ def table(name: str) -> pd.DataFrame:
 
 @cache
 def numbers() -> dict[str, PrintedNumber]:
-    """Every number by its id."""
+    """All numbers, by id."""
     fields = list(PrintedNumber.__dataclass_fields__)
     return {row["id"]: PrintedNumber(**{name: row[name] for name in fields})
             for paper in names() for row in table(paper).to_dict("records")}
 
 
 def published(key: str) -> PrintedNumber:
-    """The number with this id. Raises ValueError: unknown; names ids that are close."""
+    """The number with this id. Raises ValueError: unknown id; the message gives similar ones."""
     if key not in numbers():
         close = get_close_matches(key, numbers(), n=5) or names()
         raise ValueError(f"no published number {key!r}: did you mean {', '.join(close)}?")

@@ -1,7 +1,7 @@
-"""The scene that every solver meets: a fluid between two plates, heated from below [KHP95, Secs IV-VI].
+"""The main scene of all solvers: a fluid between two plates, heated from below    [KHP95, Secs IV-VI]
 
-Lengths in units of sigma, y in (-L/2, L/2) upwards, x in (-aspect L/2, aspect L/2); mean density 1; gravity
-is chosen so that the motionless state has exactly constant density.
+Lengths are in units of sigma, y in (-L/2, L/2) upwards, x in (-aspect L/2, aspect L/2). Mean density is 1;
+gravity is chosen such that the density of the state at rest is uniform.
 """
 from dataclasses import dataclass
 from math import inf
@@ -15,11 +15,11 @@ from continuum.jit import check_formulas
 from continuum.sides import Periodic, Torus, Walls
 
 __all__ = ["ROLL_ENERGY", "Periodic", "RayleighBenard", "Torus", "Walls", "columns_of"]
-ROLL_ENERGY = 9/5000    # kinetic energy per mass of the initial rolls    [KHP95, Fig. 9]
+ROLL_ENERGY = 9/5000    # kinetic energy per mass K of the initial rolls    [KHP95, Fig. 9]
 
 
 def positive(**numbers: Any) -> None:
-    """Refuse what is not positive and finite: ValueError; and what is no number: TypeError."""
+    """Check that numbers are positive and finite. Raises ValueError: one is not. TypeError: no number."""
     for name, value in numbers.items():
         if not isinstance(value, Real):
             raise TypeError(f"{name} must be a number, got {value!r}: give it without quotes or brackets")
@@ -28,7 +28,7 @@ def positive(**numbers: Any) -> None:
 
 
 def columns_of(aspect: float, rows: int) -> int:
-    """Columns of square cells. ValueError: rows below 8, or no whole number of columns."""
+    """Number of columns of square cells. Raises ValueError: rows below 8, no whole number of columns."""
     if rows < 8:
         raise ValueError(f"rows must be at least 8, got {rows}: fewer do not resolve a roll")
     columns = round(aspect*rows)
@@ -44,9 +44,9 @@ class RayleighBenard:
 
     ra : Rayleigh number g alpha L^3 dT/(nu kappa) at density 1 and mean temperature, kappa = k/(rho C_V).
     eos : equation of state. transport : class of the transport law; its numbers follow from ra and pr.
-    L : height in sigma, which fixes the units of length and time only. aspect : width / height.
+    L : height in sigma; it only fixes the units of length and time. aspect : width / height.
     T_hot, T_cold : temperatures of the plates at y = -L/2 and y = +L/2. sides : Periodic() or Walls().
-    pr : nu/kappa; 1 is KHP95's eta = k where C_V = 1.
+    pr : Prandtl number nu/kappa; KHP95 has 1, eta = k with C_V = 1.
     """
     ra: float
     eos: Any = fluid.IdealGas()  # noqa: RUF009  (immutable)
@@ -57,7 +57,7 @@ class RayleighBenard:
     T_cold: float = 0.5
     sides: Any = Periodic()  # noqa: RUF009
     pr: float = 1.0
-    slide: ClassVar[float] = 0.0        # velocity of the upper plate along itself
+    slide: ClassVar[float] = 0.0        # velocity of the upper plate along x
 
     def __post_init__(self):
         positive(ra=self.ra, pr=self.pr, L=self.L, aspect=self.aspect, T_hot=self.T_hot, T_cold=self.T_cold)
@@ -98,17 +98,17 @@ class RayleighBenard:
 
     @property
     def g(self) -> float:
-        """Gravity that balances (dP/dT)_rho dT/dy at density 1    [KHP95, Sec. IV]"""
+        """Gravity that balances the pressure gradient (dP/dT)_rho dT/dy at density 1    [KHP95, Sec. IV]"""
         return float(fluid.thermal_pressure(self.eos, 1.0, self.T_mean))*self.dT/self.L
 
     @property
     def alpha(self) -> float:
-        """Thermal expansion -(1/rho)(drho/dT)_P at density 1 and mean temperature."""
+        """Thermal expansivity -(1/rho)(drho/dT)_P at density 1 and mean temperature."""
         return float(fluid.expansivity(self.eos, 1.0, self.T_mean))
 
     @property
     def nu(self) -> float:
-        """Kinematic viscosity, sigma^2 per unit of time; at density 1 the shear viscosity."""
+        """Kinematic viscosity, sigma^2 per unit of time; at density 1 it equals the shear viscosity."""
         return float(np.sqrt(self.pr*self.g*self.alpha*self.dT*self.L**3/self.ra))
 
     @property
@@ -123,7 +123,7 @@ class RayleighBenard:
 
     @property
     def law(self) -> Any:
-        """The transport law with its numbers, for `viscosity` and `conductivity`."""
+        """Transport law with the numbers of the scene, for `viscosity` and `conductivity`."""
         known = {"eta": self.nu, "k": self.k, "nu": self.nu, "kappa": self.kappa, "cv": self.eos.cv}
         return self.transport(**{name: known[name] for name in self.transport._fields if name in known})
 
@@ -134,20 +134,20 @@ class RayleighBenard:
 
     @property
     def free_fall(self) -> float:
-        """sqrt(g alpha dT L), the unit of velocity of Boussinesq solutions; 1 for the ideal gas."""
+        """Free-fall velocity sqrt(g alpha dT L), the unit of Boussinesq solutions; 1 for the ideal gas."""
         return float(np.sqrt(self.g*self.alpha*self.dT*self.L))
 
     def T(self, y):
-        """Conduction profile: linear, and at density 1 an exact solution without motion (constant k)."""
+        """Conduction profile, linear in y: with density 1 and constant k the exact state at rest."""
         return self.T_mean - self.dT*np.asarray(y)/self.L
 
     def e(self, y):
-        """Energy per mass of the motionless state."""
+        """Energy per mass of the state at rest."""
         return fluid.energy(self.eos, 1.0, self.T(y))
 
     def flow(self, x, y, ke: float, rolls: int | None = None):
-        """Velocities (v_x, v_y) of the initial rolls with kinetic energy `ke` per mass (density 1). `rolls`
-        counts them along x; default: as many as are about as wide as high, in pairs if periodic."""
+        """Velocities (v_x, v_y) of initial rolls with kinetic energy `ke` per mass (density 1). `rolls` is
+        their number along x; by default rolls are about as wide as high, and come in pairs if periodic."""
         if not ke >= 0:
             raise ValueError(f"the kinetic energy of the initial rolls cannot be negative, got {ke}")
         if rolls is None:
@@ -158,11 +158,11 @@ class RayleighBenard:
         return scale*u, scale*v
 
     def fields(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Density, velocity and temperature at the start, at places (n, 2)    [KHP95, Sec. VI]"""
+        """Initial density, velocity and temperature at positions (n, 2)    [KHP95, Sec. VI]"""
         return np.ones(len(x)), np.stack(self.flow(x[:, 0], x[:, 1], ROLL_ENERGY), axis=1), self.T(x[:, 1])
 
     def _roll_energy(self, rolls: int) -> float:
-        """Mean v^2/2 of the pattern; the midpoint rule is exact for its few harmonics."""
+        """Mean of v^2/2 over the unscaled rolls; the midpoint rule is exact for their few harmonics."""
         mid = (np.arange(8*(rolls + 2)) + 0.5)/(8*(rolls + 2)) - 0.5
         u, v = self.sides.rolls(mid*self.width, mid[:, None]*self.L, self.width, self.L, rolls)
         return float(np.mean(u**2 + v**2)/2)

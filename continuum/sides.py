@@ -1,4 +1,4 @@
-"""What bounds a box: kinds of all four sides, kinds of one side; `axes`: is it periodic along x, along y?"""
+"""Sides of a box: kinds of all four together, kinds of one; `axes` : is the box periodic in x, in y?"""
 from contextlib import suppress
 from math import isfinite, nan
 from numbers import Real
@@ -8,8 +8,8 @@ import numpy as np
 
 
 def of_one_kind(kind: type) -> type:
-    """A class of numbers whose objects equal those of their own kind only: as tuples, all empty ones would be
-    equal. Raises TypeError: they are no numbers or others than its own, or one that it needs is missing."""
+    """Let objects of a NamedTuple of numbers equal only those of their class: as tuples all empty ones are
+    equal. Its constructor raises TypeError: not a number, an unknown name, a missing number."""
     plain, names = kind.__new__, kind._fields      # type: ignore[attr-defined]
 
     def alike(one: tuple, other: object) -> bool:
@@ -30,7 +30,7 @@ def of_one_kind(kind: type) -> type:
 
 @of_one_kind
 class Periodic(NamedTuple):
-    """Periodic in x with period aspect L; rolls come in pairs. As one of four sides: goes on in the other."""
+    """Periodic in x with period aspect L; rolls come in pairs. One of four sides: joined to the opposite."""
 
     @property
     def axes(self) -> tuple[bool, bool]:
@@ -46,7 +46,7 @@ class Periodic(NamedTuple):
 
 @of_one_kind
 class Torus(NamedTuple):
-    """Periodic along both axes: no plates. For flows that are not convection."""
+    """Periodic along both axes, without plates: for flows other than convection."""
 
     @property
     def axes(self) -> tuple[bool, bool]:
@@ -55,7 +55,7 @@ class Torus(NamedTuple):
 
 @of_one_kind
 class Walls(NamedTuple):
-    """No-slip walls at x = -+ aspect L/2 too, their temperature linear in y    [KHP95, Fig. 6]"""
+    """No-slip walls also at x = -+ aspect L/2, with temperature linear in y    [KHP95, Fig. 6]"""
 
     @property
     def axes(self) -> tuple[bool, bool]:
@@ -73,28 +73,28 @@ class Walls(NamedTuple):
 
 @of_one_kind
 class Plate(NamedTuple):
-    """No slip. Its temperature is T, or heat q enters the fluid per area and time; adiabatic by default."""
+    """No-slip side of temperature T, or with heat q into the fluid per area and time; default: adiabatic."""
     T: float = nan
     q: float = 0.0
 
 
 @of_one_kind
 class Slip(NamedTuple):
-    """No friction and no passage, as a plane of symmetry; T and q as of a plate."""
+    """Impermeable side without friction, like a plane of symmetry; T and q as of a plate."""
     T: float = nan
     q: float = 0.0
 
 
 @of_one_kind
 class Sliding(NamedTuple):
-    """A plate that slides along itself: v is its velocity along x, or of a left or right side along y."""
+    """A plate that slides along itself with velocity v: along x, or along y at the left and right side."""
     v: float
     T: float = nan
     q: float = 0.0
 
 
 class Sides(NamedTuple):
-    """Four sides of any kinds; periodic ones come in pairs."""
+    """Four sides of any kinds; opposite sides are both periodic or neither."""
     left: Any
     right: Any
     bottom: Any
@@ -106,7 +106,7 @@ class Sides(NamedTuple):
 
 
 class HeatPath(NamedTuple):
-    """Heat runs along an axis (0: x, 1: y), from a side dT hotter than the other, `length` away."""
+    """Axis of the heat flux (0: x, 1: y), temperature by which its left or lower side is hotter, length."""
     axis: int
     dT: float
     length: float
@@ -116,17 +116,17 @@ SOLID = (Plate, Slip, Sliding)
 
 
 def warm(side: Any) -> bool:
-    """Has the side a temperature of its own?"""
+    """True if the side has a given temperature."""
     return isinstance(side, SOLID) and not np.isnan(side.T)
 
 
 def adiabatic(side: Any) -> bool:
-    """Does no heat pass? None does, on average, where the box goes on periodically."""
+    """True if no heat passes the side; through periodic sides none does, on average."""
     return isinstance(side, Periodic) or (np.isnan(side.T) and side.q == 0)
 
 
 def check_sides(sides: Sides) -> None:
-    """Refuse what is no side, a periodic one without its partner, and numbers that no side can have."""
+    """Check kinds, numbers and pairs of periodic sides. Raises TypeError: no side. ValueError: the others."""
     for name, side in sides._asdict().items():
         if type(side) not in (Periodic, *SOLID):
             raise TypeError(f"{name} must be Periodic(), Plate(...), Slip(...) or Sliding(v, ...), "

@@ -1,4 +1,4 @@
-"""When a run of a grid may stop: rules that look at its samples of K; its step; what it ends with."""
+"""Runs of grids: rules that stop them by their samples of K, their time step, results, Newton's method."""
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from math import ceil
@@ -6,20 +6,20 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-SAFETY = 0.8  # of the stability limit, which is taken at the start
-SMALL = 1e-9  # remaining change of K that no longer matters, K of convection being 1e-3
-STILL = 1e-12  # K of a fluid at rest; rolls have 1e-5 already 0.3 % above onset
-WITHIN = 1e-9  # largest change in the last step of Newton's method: the error is then about its square
-STEPS = 60  # of Newton's method: the slowest case that got through took 46 (cavity at Ra = 1e7 on 64 rows)
-RK4_SOUND, RK4_DECAY = 2.82, 2.78  # where RK4's stability region ends on the imaginary and on the real axis
+SAFETY = 0.8  # default time step over the stability limit at the start
+SMALL = 1e-9  # remaining change of K that is negligible; K of convection is 1e-3
+STILL = 1e-12  # largest K that counts as rest; 0.3 % above onset rolls already have 1e-5
+WITHIN = 1e-9  # largest change in the last step of Newton's method; the error is about its square
+STEPS = 60  # at most, of Newton's method: the slowest converged case took 46 (cavity at Ra = 1e7, 64 rows)
+RK4_SOUND, RK4_DECAY = 2.82, 2.78  # ends of RK4's stability region on the imaginary and the real axis
 
 
 class NewtonFailed(RuntimeError):
-    """No steady state was found; the message has the changes of the last steps."""
+    """No steady state was found; the message gives the changes of the last steps."""
 
 
 class Series(NamedTuple):
-    """Samples in time: K, Nusselt number of the lower plate, mean density."""
+    """Time series: K, Nusselt number of the lower plate, mean density."""
     t: np.ndarray
     ke: np.ndarray
     nu: np.ndarray
@@ -28,9 +28,9 @@ class Series(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class GridRun:
-    """What a run in time ended with.
+    """Result of a run in time.
 
-    `ke` is K at the end with what is left of its decay added, `ke_err` the size of that.
+    `ke`, `ke_err` : K at the end and its error, as the rule that stopped the run estimates them.
     """
     series: Series = field(repr=False)
     ke: float
@@ -52,7 +52,7 @@ class GridRun:
 
 
 def steps_between(interval: float, limit: float, dt: float | None) -> int:
-    """Steps from one sample to the next, of at most dt, or safe ones. ValueError: dt is above the limit."""
+    """Number of steps between samples, each at most dt, by default SAFETY*limit. ValueError: dt > limit."""
     longest = SAFETY*limit if dt is None else dt
     if not 0 < longest <= limit:
         raise ValueError(f"dt = {dt:.4g} must be positive and not above the stability limit {limit:.4g}: "
@@ -61,7 +61,7 @@ def steps_between(interval: float, limit: float, dt: float | None) -> int:
 
 
 def of_samples(until: Any, samples: list) -> dict[str, Any]:
-    """What samples (t, K, Nu, mass) tell of `GridRun`."""
+    """Fields of `GridRun` that follow from samples (t, K, Nu, mass)."""
     series = Series(*np.array(samples).T)
     ke, ke_err = until.estimate(series.ke)
     return {"series": series, "ke": ke, "ke_err": ke_err, "converged": until.settled(series.ke)}
@@ -69,8 +69,8 @@ def of_samples(until: Any, samples: list) -> dict[str, Any]:
 
 def newton(q: np.ndarray, step: Callable[[np.ndarray], np.ndarray],
            what: str) -> tuple[np.ndarray, tuple[float, ...]]:
-    """The q that no step(q) changes by more than WITHIN, and the largest change of each step. Raises
-    NewtonFailed: no convergence, of `what`."""
+    """Iterate q + step(q) until the change is within WITHIN. Returns q and the largest change of each step.
+    Raises NewtonFailed: no convergence; its message names the case, `what`."""
     changes: list[float] = []
     while not changes or changes[-1] > WITHIN:
         change = step(q)
@@ -90,7 +90,7 @@ def largest(a: np.ndarray) -> float:
 
 @dataclass(frozen=True)
 class Time:
-    """Stop at time `t_end` with `samples` samples on the way."""
+    """Stop at time `t_end`, with `samples` samples at equal intervals."""
     t_end: float
     samples: int = 200
 
@@ -111,17 +111,17 @@ class Time:
         return False
 
     def estimate(self, ke) -> tuple[float, float]:
-        """K at the end and how far it went in the last tenth of the time."""
+        """K at the end, and its range of values in the last tenth of the time."""
         return float(ke[-1]), float(np.ptp(ke[-max(2, len(ke)//10):]))
 
 
 @dataclass(frozen=True, kw_only=True)
 class Steady:
-    """Stop when what is left of the decay of K is below `rtol` K in three blocks running.
+    """Stop when the remaining change of K is below `rtol` K after three successive blocks.
 
-    K is averaged over blocks (sound passes several times); their means b give what is left, d r/(1 - r) with
-    d_n = b_n - b_(n-1), r = d_n/d_(n-1): near onset one difference is small long before K is steady.
-    `block`, `longest` in units of L^2/nu; after `longest` the run ends unconverged. `samples` a block.
+    K is averaged over blocks, in which sound crosses the box several times. From the means b_n the remaining
+    change is d r/(1 - r), d_n = b_n - b_(n-1), r = d_n/d_(n-1): near onset d alone is small long before K is
+    steady. `block`, `longest` in L^2/nu; after `longest` the run ends unconverged. `samples` per block.
     """
     rtol: float = 1e-5
     block: float = 0.1
@@ -136,7 +136,7 @@ class Steady:
         return self.block*scene.viscous_time/self.samples
 
     def means(self, ke) -> np.ndarray:
-        """Means over whole blocks; the first sample is the start."""
+        """Means of K over whole blocks; the first sample, the start, belongs to none."""
         whole = (len(ke) - 1)//self.samples
         return np.reshape(ke[1:1 + whole*self.samples], (whole, self.samples)).mean(axis=1)
 
@@ -155,13 +155,13 @@ class Steady:
         return (len(ke) - 1)/self.samples*self.block
 
     def fraction(self, ke) -> float:
-        """Of the way to `rtol` on a logarithmic scale, or of the longest time."""
+        """Progress: towards `rtol` on a logarithmic scale, or of the longest time if that is more."""
         means = self.means(ke)
         near = abs(left(means))/max(means[-1], SMALL) if len(means) else np.inf
         return float(np.clip(np.log(max(near, self.rtol))/np.log(self.rtol), self._time(ke)/self.longest, 1))
 
     def estimate(self, ke) -> tuple[float, float]:
-        """(K with what is left of its decay, size of what is left), or mean and spread of the last half."""
+        """K plus its remaining change, and the error of that; unsettled: mean, scatter of the last half."""
         means = self.means(ke)
         if self.settled(ke):
             rest = left(means)
@@ -171,11 +171,11 @@ class Steady:
 
 
 def left(means: np.ndarray) -> float:
-    """What is left of a geometric decay after its last value; infinite where the values do not converge."""
+    """Remaining change of a geometric decay after its last value; infinite if the values do not converge."""
     if len(means) < 3:
         return np.inf
     before, last = np.diff(means[-3:])
-    if abs(last) <= 1e-10*abs(means[-1]):  # round-off: its ratios mean nothing
+    if abs(last) <= 1e-10*abs(means[-1]):  # differences are round-off, their ratios mean nothing
         return float(last)
     ratio = last/before if before else np.inf
     return float(last*ratio/(1 - ratio)) if abs(ratio) < 1 else np.inf

@@ -1,9 +1,9 @@
-"""Boussinesq convection: one staggered discretisation (mac.py), two drivers; everything a user needs is here.
+"""Boussinesq convection: one staggered discretisation (mac.py), two solvers; this is the public interface.
 
     du/dt + u.grad u = -grad p + nu Lap u + T e_y,    dT/dt + u.grad T = kappa Lap T,    div u = 0
 
-in free-fall units (flow.py). `steady` is Newton's method, `transient` marches in time. They share the
-operators: a transient ends in the state that Newton finds on the same grid.
+in free-fall units (flow.py). `steady` uses Newton's method, `transient` integrates in time. Both share the
+operators: a transient ends in a steady state of Newton's method on the same grid.
 
     state = steady(BoussinesqCase(ra=10_000, pr=1, box=HALF_LAYER, rows=64))
     state.K, state.rolls, state.observe()

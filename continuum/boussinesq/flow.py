@@ -1,4 +1,4 @@
-"""A case of Boussinesq convection, its equations, its states, where they start, what is measured on them.
+"""Boussinesq convection: cases, rates of change, states, initial states, measured quantities.
 
 Free-fall units: height H, temperature difference dT and velocity sqrt(g alpha dT H) are 1, so that
 nu = sqrt(Pr/Ra), kappa = 1/sqrt(Pr Ra); T is in (-1/2, 1/2); K is kinetic energy per mass.
@@ -20,7 +20,7 @@ from continuum.steady import STILL
 
 @dataclass(frozen=True, kw_only=True)
 class BoussinesqCase:
-    """Fluid, box and grid; without columns the cells are as square as even numbers allow."""
+    """Fluid, box and grid; by default `columns` is the even number that makes cells most nearly square."""
     ra: float
     pr: float
     box: Box = HALF_LAYER
@@ -47,12 +47,12 @@ class BoussinesqCase:
 
     @property
     def mac(self) -> Mac:
-        """The operators, shared by every case on this box and grid."""
+        """Operators, shared by all cases with this box and grid."""
         return mac(self.box, self.rows, self.columns)
 
 
 class Equations:
-    """The rates of change of one case, without the pressure."""
+    """Rates of change of one case, without the pressure."""
 
     def __init__(self, case: BoussinesqCase):
         self.case, self.mac = case, case.mac
@@ -71,7 +71,7 @@ class Equations:
 
 
 class Observed(NamedTuple):
-    """K, and Nusselt numbers: mean heat in at the bottom, out at the top, in at the left side."""
+    """K, and Nusselt numbers: mean heat flux in at the bottom, out at the top, in at the left side."""
     K: float
     nu_bottom: float
     nu_top: float
@@ -84,7 +84,7 @@ class State:
     case: BoussinesqCase
     q: np.ndarray = field(repr=False)
     t: float = 0.0
-    changes: tuple[float, ...] = ()         # of Newton's steps, the largest one
+    changes: tuple[float, ...] = ()         # largest change in each of Newton's steps
 
     def __post_init__(self):
         if self.q.shape != (self.case.mac.ends[-1],):
@@ -97,12 +97,12 @@ class State:
 
     @cached_property
     def parts(self) -> list[np.ndarray]:
-        """u (faces in x, rows), v (columns, faces in y), T (columns, rows); faces in walls are left out."""
+        """u (faces in x, rows), v (columns, faces in y), T (columns, rows), without faces in walls."""
         return self.case.mac.split(self.q)
 
     @property
     def psi(self) -> np.ndarray:
-        """Streamfunction on corners (x faces, y faces): u = dpsi/dy, v = -dpsi/dx, zero on the bottom."""
+        """Streamfunction on corners (faces in x, faces in y): u = dpsi/dy, v = -dpsi/dx, 0 on the bottom."""
         return np.cumsum(self.parts[0], axis=1)[:, :-1]*self.case.mac.y.h
 
     @property
@@ -112,7 +112,7 @@ class State:
 
     @property
     def rolls(self) -> int:
-        """How many rolls lie in the box, 0 at rest: regions of one sign of psi, above 10 % of its largest."""
+        """Number of rolls, 0 at rest: regions of one sign with |psi| above 10 % of its largest value."""
         if self.K < STILL:
             return 0
         psi = self.psi
@@ -120,7 +120,7 @@ class State:
         return int(label(psi > least)[1] + label(psi < -least)[1])
 
     def observe(self) -> Observed:
-        """What is measured on a state."""
+        """K and the Nusselt numbers."""
         walls = (1, 0), (1, -1), (0, 0)     # axis, end
         bottom, top, left = (enters(self.case.mac, self.parts[2], *wall) for wall in walls)
         return Observed(self.K, bottom, -top, left)
@@ -138,7 +138,7 @@ class State:
 
 
 def enters(mac: Mac, T: np.ndarray, axis: int, end: int) -> float:
-    """Mean gradient of T out of the box at one wall, (T_wall - T_cell)/(h/2)."""
+    """Mean outward gradient of T at one wall, (T_wall - T_cell)/(h/2); 0 at an insulated one."""
     edges, across, along = ((mac.box.sides, mac.x, mac.y), (mac.box.plates, mac.y, mac.x))[axis]
     if edges.heat is not End.WALL:
         return 0.0
@@ -147,7 +147,7 @@ def enters(mac: Mac, T: np.ndarray, axis: int, end: int) -> float:
 
 
 def resample(f: np.ndarray, old: tuple, new: tuple, mac: Mac) -> np.ndarray:
-    """f from the points old = (x, y) to new; zero in walls that its points leave out."""
+    """Interpolate f from points old = (x, y) to new; normal velocities are 0 in walls."""
     x, y = old
     if len(x) == mac.x.faces:
         x, f = np.r_[0, x, mac.box.width], np.pad(f, ((1, 1), (0, 0)))
@@ -157,7 +157,7 @@ def resample(f: np.ndarray, old: tuple, new: tuple, mac: Mac) -> np.ndarray:
 
 
 def rest(case: BoussinesqCase) -> State:
-    """No flow, and the temperature that conduction would give: linear between the plates, or the sides."""
+    """State at rest with the temperature of conduction: linear between the plates, or the sides."""
     mac, plates = case.mac, case.box.plates
     x, y = np.meshgrid(mac.x.centre/case.box.width, mac.y.centre, indexing="ij")
     T = 0.5 - (y if plates.heat is End.WALL else x)
@@ -165,7 +165,7 @@ def rest(case: BoussinesqCase) -> State:
 
 
 def roll(case: BoussinesqCase, rolls: int = 1) -> State:
-    """Rolls, rising at the left side, of the Lorenz model (free plates, Ra/Ra_c at least 1.1)."""
+    """Rolls that rise at the left side, from the Lorenz model (free plates) at Ra/Ra_c of at least 1.1."""
     if rolls < 1:
         raise ValueError(f"{rolls} rolls do not fit: a box has at least 1")
     mac, a = case.mac, rolls/case.box.width

@@ -1,12 +1,12 @@
-"""Staggered (MAC) discretisation of a box of Boussinesq fluid: what bounds it, and the assembled operators.
+"""Staggered (MAC) discretisation of a box of Boussinesq fluid: boundary conditions, assembled operators.
 
 x runs along the plates over `columns` cells, y across over `rows` cells; the height is 1. T sits in cells, u
-on faces between neighbours in x, v on those between neighbours in y, the streamfunction psi on corners. Faces
+on faces between neighbours in x, v on faces between neighbours in y, the streamfunction psi on corners. Faces
 in a wall carry no unknown: their normal velocity is zero. A state is a vector q = (u, v, T).
 
-Diffusion is the five-point sum with mirrored values beyond a wall; advection is the centred flux form, a sum
-of products D[(A q)(B q)]. With div v = 0 in each cell advection makes neither v^2 nor T^2: the discrete flow
-keeps the energy balances of the exact one: Nu from the plates, <vT> and both dissipations are equal.
+Diffusion is the five-point Laplacian with mirrored values beyond a wall; advection is the centred flux form,
+a sum of products D[(A q)(B q)]. With div v = 0 in each cell advection conserves v^2 and T^2, so that the flow
+has the energy balances of the exact one: Nu from the plates, from <vT> and from dissipation are equal.
 """
 from dataclasses import dataclass
 from enum import Enum
@@ -20,14 +20,14 @@ from continuum.scene import positive
 
 
 class End(Enum):
-    """What happens to a quantity (velocity along the end, or temperature) at both ends of an axis."""
+    """Boundary condition at both ends of an axis, for the velocity along the end or the temperature."""
     MIRROR = "is even about the end: free slip, insulated"
     WALL = "is given on the end: no slip, fixed temperature"
 
 
 @dataclass(frozen=True, kw_only=True)
 class BoxEdges:
-    """Both ends of one axis, for flow and for heat; T on a WALL is low (or high) + ramp*position along it."""
+    """Flow and heat at both ends of an axis; T on a WALL is low (high) + ramp*position along it."""
     flow: End
     heat: End
     low: float = 0.0
@@ -41,7 +41,7 @@ SYMMETRY = BoxEdges(flow=End.MIRROR, heat=End.MIRROR)
 
 @dataclass(frozen=True, kw_only=True)
 class Box:
-    """Width in heights, sides (left, right), plates (bottom, top). T is +-1/2 on what is hot or cold"""
+    """Width in heights, sides (left, right), plates (bottom, top); T is 1/2 on hot, -1/2 on cold walls."""
     width: float = 1.0
     sides: BoxEdges = SYMMETRY
     plates: BoxEdges = PLATES
@@ -52,11 +52,11 @@ class Box:
             raise ValueError("no wall has a temperature: fix it on the plates or on the sides")
 
 
-HALF_LAYER = Box(width=1.0, sides=SYMMETRY)         # half of the aspect-2 periodic box: one roll of its pair
+HALF_LAYER = Box(width=1.0, sides=SYMMETRY)         # half of the periodic box of aspect 2: one of two rolls
 
 
 class Axis:
-    """Differences and means along one axis of n cells; `faces` leaves out those in a wall."""
+    """Differences and means along an axis of cells; `faces` are those between cells, not those in walls."""
 
     def __init__(self, cells: int, length: float):
         self.cells, self.faces, self.h = cells, cells - 1, length/cells
@@ -69,16 +69,16 @@ class Axis:
         self.back = self.mean.T.tocsr()
 
     def bend(self, end: End) -> sparse.csr_array:
-        """Second difference in cells; 2 T_wall - T lies beyond a WALL, T_wall counts elsewhere."""
+        """Second difference in cells, with 2 T_wall - T beyond a WALL; terms of T_wall are in `Mac.wall`."""
         return self.div@self.grad - 2*sparse.diags_array(self.wall(1.0, 1.0)*(end is End.WALL))/self.h
 
     def wall(self, low: float, high: float) -> np.ndarray:
-        """low/h in the first cell, high/h in the last: the divergence of a flux that enters there."""
+        """low/h in the first cell, high/h in the last: the divergence of fluxes that enter at the ends."""
         return np.r_[low, np.zeros(self.cells - 2), high]/self.h
 
 
 class Mac:
-    """The assembled operators of one box on one grid. Multiply `lap` by nu, nu, kappa."""
+    """Assembled operators of one box on one grid; `lap` (of u, v, T) is still without nu, nu, kappa."""
 
     def __init__(self, box: Box, rows: int, columns: int):
         self.box = box
@@ -86,22 +86,22 @@ class Mac:
         self.points = (x.face, y.centre), (x.centre, y.face), (x.centre, y.centre)
         self.shapes = [(len(a), len(b)) for a, b in self.points]
         self.ends = np.cumsum([a*b for a, b in self.shapes])
-        self.cell = x.h*y.h/box.width                   # share of one cell in the box
+        self.cell = x.h*y.h/box.width                   # volume of a cell over that of the box
         self.lap = sparse.block_diag(self.diffusion()).tocsr()
         self.wall = np.r_[np.zeros(self.ends[1]), self.wall_heat().ravel()]
         around = sparse.csr_array(tuple(self.ends[:2])), sparse.csr_array((rows*columns, 0))
-        self.lift = sparse.block_diag([around[0], cross(columns, y.mean), around[1]]).tocsr()   # of v by T
+        self.lift = sparse.block_diag([around[0], cross(columns, y.mean), around[1]]).tocsr()   # v from T
         self.A, self.B, self.D = self.advection()
         self.div = sparse.hstack([cross(x.div, rows), cross(columns, y.div)]).tocsr()
         self.grad = (-self.div.T).tocsr()               # of the pressure, onto (u, v)
         self.curl = sparse.vstack([cross(x.faces, y.div), -cross(x.div, y.faces)]).tocsr()
 
     def split(self, q: np.ndarray) -> list[np.ndarray]:
-        """Views (u, v, T) of a state vector, each (x, y)."""
+        """Views (u, v, T) of a state vector, each indexed [x, y]."""
         return [part.reshape(shape) for part, shape in zip(np.split(q, self.ends[:-1]), self.shapes)]
 
     def diffusion(self) -> tuple[sparse.csr_array, ...]:
-        """Lap of u, v, T; the homogeneous part."""
+        """Laplacians of u, v, T without the temperatures of walls."""
         x, y, sides, plates = self.x, self.y, self.box.sides, self.box.plates
         u = cross(x.grad@x.div, y.cells) + cross(x.faces, y.bend(plates.flow))
         v = cross(x.bend(sides.flow), y.faces) + cross(x.cells, y.grad@y.div)
@@ -109,7 +109,7 @@ class Mac:
         return u, v, T
 
     def wall_heat(self) -> np.ndarray:
-        """What the temperatures of the walls add to Lap T, (columns, rows)."""
+        """Contribution of the temperatures of walls to Lap T, (columns, rows)."""
         def part(edges, across, along):
             ramp = np.outer(across.wall(1, 1), edges.ramp*along)
             enters = across.wall(edges.low, edges.high)[:, None] + ramp
@@ -118,7 +118,7 @@ class Mac:
         return part(self.box.sides, x, y.centre) + part(self.box.plates, y, x.centre).T
 
     def advection(self) -> tuple[sparse.csr_array, ...]:
-        """A, B, D of -D[(A q)(B q)]; the fluxes are uu, vv (in cells), uv (on corners), uT, vT (on faces)."""
+        """A, B, D of advection -D[(A q)(B q)] with fluxes uu, vv in cells, uv on corners, uT, vT on faces."""
         x, y = self.x, self.y
         u_x, v_y = cross(x.back, y.cells), cross(x.cells, y.back)
         u_y, v_x = cross(x.faces, y.mean), cross(x.mean, y.faces)
@@ -135,12 +135,12 @@ class Mac:
 
 
 def cross(x, y) -> sparse.csr_array:
-    """Operator x on the first index and y on the second; a number n stands for the identity of that size."""
+    """Operator x on the first index and y on the second; an integer n is the identity of size n."""
     x, y = (sparse.eye_array(part) if isinstance(part, int) else part for part in (x, y))
     return sparse.kron(x, y).tocsr()
 
 
 @lru_cache(maxsize=16)
 def mac(box: Box, rows: int, columns: int) -> Mac:
-    """The operators, assembled once for each box and grid."""
+    """Operators, assembled once per box and grid."""
     return Mac(box, rows, columns)

@@ -1,6 +1,6 @@
 """Transients of the discrete equations by a projection method.
 
-Sine and cosine modes are the eigenvectors of the five-point Laplacian, so that solves are fast.
+Sine and cosine modes are eigenvectors of the five-point Laplacian: fast transforms solve linear systems.
 """
 from collections.abc import Callable
 from functools import partial
@@ -13,20 +13,20 @@ from continuum.boussinesq.flow import BoussinesqCase, Equations, State
 from continuum.boussinesq.mac import Axis, End, Mac
 from continuum.scene import positive
 
-CFL = 0.4           # of a step: two-step explicit advection with some viscosity is stable to 0.8
-LONGEST = 0.05      # step in free-fall times where the flow is too slow to set one
-RECORD = 10         # steps from one record to the next
+CFL = 0.4           # Courant number: two-step explicit advection with some viscosity is stable up to 0.8
+LONGEST = 0.05      # longest step in free-fall times, for slow flows
+RECORD = 10         # steps between records of K
 
 
 class Modes(NamedTuple):
-    """Transform along one axis, its inverse, and the eigenvalues of the second difference there."""
+    """Transform along one axis, its inverse, and the eigenvalues of the second difference."""
     forward: Callable
     backward: Callable
     eigenvalues: np.ndarray
 
 
 def modes(axis: Axis, along: int, end: End) -> Modes:
-    """For what sits in cells."""
+    """Modes of a quantity in cells."""
     turns = np.arange(axis.cells + 1)/axis.cells
     if end is End.MIRROR:
         return Modes(partial(fft.dct, axis=along), partial(fft.idct, axis=along), bend(axis.h, turns[:-1]))
@@ -34,25 +34,25 @@ def modes(axis: Axis, along: int, end: End) -> Modes:
 
 
 def face_modes(axis: Axis, along: int) -> Modes:
-    """For what sits on faces and vanishes in the walls."""
+    """Modes of a quantity on faces that vanishes in the walls."""
     return Modes(partial(fft.dst, type=1, axis=along), partial(fft.idst, type=1, axis=along),
                  bend(axis.h, np.arange(1, axis.cells)/axis.cells))
 
 
 def bend(h: float, half_turns: np.ndarray) -> np.ndarray:
-    """Second difference of a wave that advances by pi*half_turns from point to point."""
+    """Eigenvalue of the second difference for a wave with phase pi*half_turns from cell to cell."""
     return -(2/h*np.sin(np.pi*half_turns/2))**2
 
 
 class Solver:
-    """Solves (a + b Lap) f = g on one of the staggered sets of points."""
+    """Solver of (a + b Lap) f = g for one quantity on the staggered grid."""
 
     def __init__(self, x: Modes, y: Modes):
         self.x, self.y = x, y
         self.lap = x.eigenvalues[:, None] + y.eigenvalues[None, :]
 
     def __call__(self, g: np.ndarray, a: float, b: float) -> np.ndarray:
-        """f of the shape of g (x, y); with a = 0 and ends that leave a constant free, its mean is zero."""
+        """f, shaped as g (x, y); if a = 0 and a constant is undetermined, its mean is zero."""
         factor = a + b*self.lap
         amplitude = self.x.forward(self.y.forward(g))
         amplitude = np.divide(amplitude, factor, out=np.zeros_like(amplitude), where=factor != 0)
@@ -60,7 +60,7 @@ class Solver:
 
 
 def solvers(mac: Mac) -> tuple[Solver, Solver, Solver, Solver]:
-    """For u, v, T and the pressure."""
+    """Solvers for u, v, T and the pressure."""
     x, y, sides, plates = mac.x, mac.y, mac.box.sides, mac.box.plates
     return (Solver(face_modes(x, 0), modes(y, 1, plates.flow)),
             Solver(modes(x, 0, sides.flow), face_modes(y, 1)),
@@ -69,8 +69,8 @@ def solvers(mac: Mac) -> tuple[Solver, Solver, Solver, Solver]:
 
 
 class Projection(Equations):
-    """Buoyancy and advection extrapolated, diffusion by the trapezoidal rule, pressure by projection. Second
-    order in time. Everything is in increments of q and p: in a steady state nothing is left of splitting."""
+    """Time stepper of second order: buoyancy and advection extrapolated, diffusion by the trapezoidal rule,
+    pressure by projection. It steps increments of q and p: a steady state has no splitting error."""
 
     def __init__(self, case: BoussinesqCase, q: np.ndarray):
         super().__init__(case)
@@ -83,7 +83,7 @@ class Projection(Equations):
         self.p = self.solve[3](push.reshape(self.mac.shapes[2]), 0.0, 1.0)
 
     def advance(self, dt: float) -> None:
-        """One step of length dt; the very first is explicit Euler in what drives."""
+        """Make a step of length dt; in the first, buoyancy and advection are explicit Euler."""
         drive = self.drive(self.q)
         rate = self.diffuse(self.q) + drive + dt/self.dt_before/2*(drive - self.driven)
         rate[:self.flow] -= self.mac.grad@self.p.ravel()
@@ -95,14 +95,14 @@ class Projection(Equations):
         self.driven, self.dt_before = drive, dt
 
     def project(self, dt: float) -> tuple[np.ndarray, np.ndarray]:
-        """Free the velocity of divergence; returns the pressure that does it over dt, and the divergence."""
+        """Make the velocity divergence-free; returns the pressure of this step and the former divergence."""
         div = (self.mac.div@self.q[:self.flow]).reshape(self.mac.shapes[2])
         phi = self.solve[3](div/dt, 0.0, 1.0)
         self.q[:self.flow] -= dt*(self.mac.grad@phi.ravel())
         return phi, div
 
     def courant(self) -> float:
-        """Largest |u|/dx + |v|/dy in a cell: CFL number over dt."""
+        """Largest |u|/dx + |v|/dy in a cell: Courant number over dt."""
         x, y = self.mac.x, self.mac.y
         u, v, _ = self.mac.split(np.abs(self.q))
         return float(np.max(x.back@u/x.h + v@y.mean/y.h))
@@ -116,7 +116,7 @@ class Transient(NamedTuple):
 
 
 def transient(case: BoussinesqCase, start: State, *, until: float) -> Transient:
-    """Follow the flow for `until` free-fall times. Raises ValueError: it diverges."""
+    """Integrate the flow for `until` free-fall times. Raises ValueError: it diverges."""
     positive(until=until)
     flow, t = Projection(case, start.on(case).q), 0.0
     state = State(case=case, q=flow.q)

@@ -1,4 +1,4 @@
-"""States of the compressible grid and what is measured on them: energy, Nusselt numbers, rolls, values."""
+"""States of the compressible grid, and measurements: K, Nusselt numbers, rolls, interpolated values."""
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, NamedTuple
@@ -13,7 +13,7 @@ from continuum.steady import STILL
 
 
 class Values(NamedTuple):
-    """Fields at points."""
+    """Values of the fields at points."""
     vx: np.ndarray
     vy: np.ndarray
     e: np.ndarray
@@ -23,7 +23,7 @@ class Values(NamedTuple):
 
 @dataclass(frozen=True)
 class NodeFields:
-    """A state on its grid: `at` nodes, walls included, each (rows+1, columns+1); `cells`: densities in cells.
+    """A state on its grid; `at` : values at nodes, walls included, (rows+1, columns+1); `cells` : densities.
 
     `x`, `y` are the coordinates of the nodes; rows go up. Between periodic sides the last column repeats the
     first, on a torus the last row, too.
@@ -44,7 +44,7 @@ class NodeFields:
 
 
 def at_nodes(fields: NodeFields) -> Fields:
-    """Of nodes, rows from the lower one up; in walls they have half of a cell, in corners a quarter."""
+    """Fields of nodes, row by row upwards; nodes on walls have half of the volume of a cell, corners 1/4."""
     columns, rows = map(shares, (len(fields.x), len(fields.y)), fields.scene.sides.axes)
     kept = np.ix_(rows > 0, columns > 0)
     X, Y, V = *np.meshgrid(fields.x, fields.y), fields.h**2*np.outer(rows, columns)
@@ -54,25 +54,25 @@ def at_nodes(fields: NodeFields) -> Fields:
 
 
 def shares(nodes: int, periodic: bool) -> np.ndarray:
-    """Of a cell along a line of nodes: the last repeats the first, or both ends are in walls."""
+    """Fraction of a cell per node along a line: its last node repeats the first, or its ends are on walls."""
     share = np.ones(nodes)
     share[[0, -1]] = (1.0, 0.0) if periodic else 0.5
     return share
 
 
 def nodes(scene, rows: int) -> tuple[np.ndarray, np.ndarray]:
-    """Coordinates of columns and rows of nodes. ValueError: as of `columns_of`."""
+    """x of the columns and y of the rows of nodes. Raises ValueError as `columns_of` does."""
     columns = columns_of(scene.aspect, rows)
     return scene.width*np.linspace(-0.5, 0.5, columns + 1), scene.L*np.linspace(-0.5, 0.5, rows + 1)
 
 
 def initial(scene, rows: int, ke: float = ROLL_ENERGY, rolls: int | None = None) -> NodeFields:
-    """Rolls of kinetic energy `ke` per mass, linear temperature    [KHP95, Sec. VI]"""
+    """Initial rolls of kinetic energy `ke` per mass with linear temperature    [KHP95, Sec. VI]"""
     return placed(scene, rows, lambda x, y: (1.0, *scene.flow(x, y, ke, rolls), scene.T(y)))
 
 
 def placed(scene, rows: int, start: Callable[[np.ndarray, np.ndarray], tuple]) -> NodeFields:
-    """Fields of a start(x, y) = (rho, v_x, v_y, T): densities in the middle of cells, all else at nodes."""
+    """Fields of start(x, y) = (rho, v_x, v_y, T): densities at the centres of cells, all else at nodes."""
     x, y = nodes(scene, rows)
     rho, vx, vy, T = (np.broadcast_to(f, (len(y), len(x))).copy() for f in start(*np.meshgrid(x, y)))
     middle = np.meshgrid((x[1:] + x[:-1])/2, (y[1:] + y[:-1])/2)
@@ -81,7 +81,7 @@ def placed(scene, rows: int, start: Callable[[np.ndarray, np.ndarray], tuple]) -
 
 
 def block(fields: NodeFields) -> np.ndarray:
-    """The state as the loop wants it; its ghosts are not yet filled."""
+    """The block S for the loop; its ghosts are not yet filled."""
     S = np.ones((4, len(fields.y) + 1, len(fields.x) + 1))
     S[VX, 1:, 1:], S[VY, 1:, 1:], S[E, 1:, 1:] = fields.at[:3]
     S[RHO, 1:-1, 1:-1] = fields.cells
@@ -103,7 +103,7 @@ def unblock(scene, S: np.ndarray) -> NodeFields:
 
 
 def interpolate(fields: NodeFields, x, y) -> Values:
-    """Cubic splines through the nodes, at points (x, y), periodic as the sides. ValueError: outside."""
+    """Values at (x, y) by cubic splines through the nodes. Raises ValueError: points outside of the box."""
     x, y = np.asarray(x, float), np.asarray(y, float)
     if fields.periodic:
         x = fields.x[0] + (x - fields.x[0]) % fields.scene.width
@@ -124,7 +124,7 @@ def spline(fields: NodeFields, f: np.ndarray) -> RectBivariateSpline:
 
 
 def onto(scene, rows: int, fields: NodeFields) -> NodeFields:
-    """`fields` on another grid or in another scene of the same shape; mean density exactly 1."""
+    """`fields` on another grid or in another scene of the same shape; interpolated, the mean density is 1."""
     x, y = nodes(scene, rows)
     scale = scene.L/fields.scene.L
     if len(x) == len(fields.x) and len(y) == len(fields.y):
@@ -136,14 +136,14 @@ def onto(scene, rows: int, fields: NodeFields) -> NodeFields:
 
 
 def kinetic_energy(S: np.ndarray) -> float:
-    """K: kinetic energy per mass of a block, sigma^2 per time^2 (free-fall units for the ideal gas)."""
+    """Kinetic energy per mass K of a block, in sigma^2 per time^2 (free-fall units for the ideal gas)."""
     rho = mean(S[RHO])[:, :-1]  # the last column of nodes repeats the first or is at rest
     v2 = S[VX, 1:, 1:-1]**2 + S[VY, 1:, 1:-1]**2
     return float(0.5*np.sum(rho*v2)/np.sum(S[RHO, 1:-1, 1:-1]))
 
 
 def count_rolls(fields: NodeFields) -> int:
-    """Changes of sign of v_y along mid-height; 0 at rest."""
+    """Number of rolls: changes of sign of v_y along mid-height; 0 at rest."""
     v = fields.at.vy[len(fields.y)//2]
     if np.max(v**2)/2 < STILL:
         return 0
@@ -152,15 +152,15 @@ def count_rolls(fields: NodeFields) -> int:
 
 
 class Nusselt(NamedTuple):
-    """Heat per conduction k dT/L: in at the bottom, out at the top, upwards on average over the volume."""
+    """Heat fluxes over k dT/L: in at the bottom, out at the top, upwards on average over the volume."""
     bottom: float
     top: float
     volume: float
-    loss: float  # what enters through all walls and does not leave, per heat through the bottom
+    loss: float  # net heat that enters through all walls, over that through the bottom
 
 
 def nusselt(fields: NodeFields) -> Nusselt:
-    """`bottom`, `top` from one-sided second-order gradients; side walls let heat through too."""
+    """Nusselt numbers; `bottom`, `top` from one-sided second-order gradients; `loss` includes side walls."""
     scene = fields.scene
     unit = scene.k*scene.dT/scene.L
     k = conductivity(scene.law, fields.at.rho, fields.at.T)*np.ones_like(fields.at.T)
@@ -177,7 +177,7 @@ def wall_flux(T: np.ndarray, k: np.ndarray, h: float) -> float:
 
 def energy_flux(fields: NodeFields) -> np.ndarray:
     """Vertical flux of total energy in cells: rho v_y (e + P/rho + v^2/2 + g y) - (sigma.v)_y - k dT/dy. In a
-    steady state between periodic sides its mean over x is the same at every y: the flux of the plates."""
+    steady state between periodic sides its mean over x is the heat flux of the plates at every y."""
     scene, (vx, vy, e, T, rho) = fields.scene, fields.at
     (mx, xx, yx), (my, xy, yy), (mT, _, slope) = (corners(f, fields.h) for f in (vx, vy, T))
     carried = mean(vy*(rho*(e + (vx**2 + vy**2)/2 + scene.g*fields.y[:, None]) + pressure(scene.eos, rho, e)))
@@ -186,11 +186,11 @@ def energy_flux(fields: NodeFields) -> np.ndarray:
 
 
 def mean(f: np.ndarray) -> np.ndarray:
-    """Means over the corners of cells; of densities in cells, over those around a node."""
+    """Means of four: of values at nodes over the corners of a cell, of densities over the cells at a node."""
     return (f[:-1, :-1] + f[1:, :-1] + f[:-1, 1:] + f[1:, 1:])/4
 
 
 def corners(f: np.ndarray, h: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Mean, d/dx, d/dy in cells from their corners."""
+    """Mean, d/dx and d/dy in cells, from values at their corners."""
     up, down = f[1:, 1:] - f[:-1, :-1], f[:-1, 1:] - f[1:, :-1]
     return mean(f), (up + down)/(2*h), (up - down)/(2*h)

@@ -1,6 +1,6 @@
-"""What a block of the compressible grid has beyond the fluid: densities behind walls, values on walls.
+"""Ghosts and wall values of a block of the compressible grid: densities behind walls, v and e on walls.
 
-See `continuum.gas.loop` for blocks. A kind of sides is one formula of `fill`.
+See `continuum.gas.loop` for blocks. Each kind of sides has its own formula of `fill`.
 """
 from typing import NamedTuple
 
@@ -13,7 +13,7 @@ FIELDS = ("v_x", "v_y", "e", "rho")
 
 
 class NodeGrid(NamedTuple):
-    """Spacing, gravity, temperatures of the plates, first column and lowest row of nodes that move."""
+    """Spacing, gravity, temperatures of the plates, first column and lowest row of nodes that are stepped."""
     h: float
     g: float
     T_hot: float
@@ -23,13 +23,13 @@ class NodeGrid(NamedTuple):
 
 
 def box_of(scene, rows: int) -> NodeGrid:
-    """Of a scene on rows of cells."""
+    """The `NodeGrid` of a scene on `rows` rows of cells."""
     first, lowest = (1 if periodic else 2 for periodic in scene.sides.axes)
     return NodeGrid(scene.L/rows, float(scene.g), float(scene.T_hot), float(scene.T_cold), first, lowest)
 
 
 class FluxForm(NamedTuple):
-    """d rho/dt = -div(rho v): mass goes from cell to cell and is conserved to round-off."""
+    """d rho/dt = -div(rho v): mass flows between cells and is conserved to round-off."""
 
 
 class PaperForm(NamedTuple):
@@ -37,12 +37,12 @@ class PaperForm(NamedTuple):
 
 
 class EdgeHeat(FluxForm):
-    """The same with heating eta |grad v|^2, as forces along edges heat, even in rotation [RR98, Eq. 51]"""
+    """FluxForm with heating eta |grad v|^2, that of forces along edges: rotation heats, too [RR98, Eq. 51]"""
 
 
 @generic
 def outside(form, near, next_):
-    """Density in the cell behind a wall, from those of the two cells before it."""
+    """Density in the cell behind a wall, from the densities of the two cells before the wall."""
 
 
 outside.of(FluxForm)(lambda form, near, next_: 2*near - next_)
@@ -51,7 +51,7 @@ outside.of(PaperForm)(lambda form, near, next_: 1.0)
 
 @jit
 def extrapolate(form, rho):
-    """Densities behind the first and the last row."""
+    """Set the densities behind the first and the last row."""
     last = rho.shape[0] - 1
     for i in range(rho.shape[1]):
         rho[0, i] = outside(form, rho[1, i], rho[2, i])
@@ -60,7 +60,7 @@ def extrapolate(form, rho):
 
 @jit
 def repeat(box, S):
-    """What lies beyond periodic sides."""
+    """Fill the ghosts beyond periodic sides."""
     ny, nx = S.shape[1] - 2, S.shape[2] - 2
     if box.first == 1:
         S[:, :, 0], S[:, :, nx + 1] = S[:, :, nx], S[:, :, 1]
@@ -70,7 +70,7 @@ def repeat(box, S):
 
 @jit
 def fill_plates(eos, form, box, S):
-    """Ghost densities behind the plates, then the energy of the plates' nodes from their temperature."""
+    """Set ghost densities behind the plates, then the energy of nodes on plates from their temperature."""
     ny, nx = S.shape[1] - 2, S.shape[2] - 2
     rho = S[RHO]
     extrapolate(form, rho)
@@ -87,7 +87,7 @@ def node_density(rho, j, i):
 
 @generic
 def fill(sides, eos, law, form, box, S):
-    """Ghosts and wall values of the state."""
+    """Set the ghosts and wall values of the block S."""
 
 
 @fill.of(Periodic)
@@ -115,9 +115,9 @@ def _(sides, eos, law, form, box, S):
 
 
 class SideRule(NamedTuple):
-    """What the loop asks of a side, in numbers: boxes of all kinds share their compiled code.
+    """A side in numbers alone, so that boxes of all kinds share their compiled code.
 
-    slip : without friction? v : velocity along itself. T, q : temperature, or nan and the heat.
+    slip : without friction? v : velocity along the side. T, q : temperature, or nan and the heat flux.
     """
     slip: bool
     v: float
@@ -126,7 +126,7 @@ class SideRule(NamedTuple):
 
 
 def in_loop(sides):
-    """What stands for a scene's sides in the loop; rules of periodic ones are not read."""
+    """Sides as the loop takes them: four are turned into rules; rules of periodic ones are not read."""
     if not isinstance(sides, Sides):
         return sides
     return Sides(*(SideRule(isinstance(side, Slip), *(getattr(side, name, 0.0) for name in "vTq"))
@@ -134,7 +134,7 @@ def in_loop(sides):
 
 
 class Line(NamedTuple):
-    """Nodes on a side: the component of velocity along it, a node before the first, and the way inwards."""
+    """Nodes on a side: component of velocity along the side, node before the first, direction inwards."""
     along: int
     j: int
     i: int
@@ -149,7 +149,7 @@ def node_temperature(eos, S, j, i):
 
 @jit
 def side_temperature(side, eos, law, box, S, j, i, up, right):
-    """T of a node on a side: as given, or with the slope -q/k inwards, of second order."""
+    """T of a node on a side: the given one, or from the slope -q/k inwards, of second order."""
     if side.T == side.T:        # not nan
         return side.T
     near = node_temperature(eos, S, j + up, i + right)
@@ -160,7 +160,7 @@ def side_temperature(side, eos, law, box, S, j, i, up, right):
 
 @jit
 def fill_side(side, eos, law, box, S, line, first, last):
-    """Velocity and energy of the nodes first..last - 1 of a side."""
+    """Set velocity and energy of the nodes first..last - 1 of a side."""
     up, right = line.up, line.right
     for n in range(first, last):
         j, i = line.j + n*abs(right), line.i + n*abs(up)
@@ -172,7 +172,7 @@ def fill_side(side, eos, law, box, S, line, first, last):
 
 @jit
 def fill_corner(beside, level, eos, law, box, S, j, i, up, right):
-    """At rest, as nothing passes. A given temperature counts before a flux; of two that count, the mean."""
+    """Set the energy of a corner, which is at rest: a given T precedes a flux, two of a kind are averaged."""
     a = side_temperature(beside, eos, law, box, S, j, i, 0, right)
     b = side_temperature(level, eos, law, box, S, j, i, up, 0)
     T, known = 0.5*(a + b), beside.T == beside.T
@@ -183,8 +183,8 @@ def fill_corner(beside, level, eos, law, box, S, j, i, up, right):
 
 @jit
 def even_out(rho):
-    """Takes the squares of a chessboard off the densities of a closed box, which no node sees: what moves
-    along sides that end in corners would feed them for ever. Mass stays."""
+    """Remove the chessboard mode from the densities of a closed box. No node sees this mode, and flow along
+    sides that end in corners would feed it for ever. The mass does not change."""
     ny, nx, squares = rho.shape[0] - 2, rho.shape[1] - 2, 0.0
     for j in range(1, ny + 1):
         for i in range(1, nx + 1):

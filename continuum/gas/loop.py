@@ -1,8 +1,8 @@
-"""The compiled loop of the compressible grid [KHP95, Sec. V]: v, e at nodes; rho, P, Q in cells.
+"""Compiled loop of the compressible grid [KHP95, Sec. V]: v, e at nodes; rho, P, Q in cells.
 
 A block `S[field, j, i]` holds the state; j counts rows upwards, i columns. Nodes are (1..ny+1, 1..nx+1), the
-outer ones on the walls; where a side is periodic, the last is the first. Cell (j, i) has node (j, i) as its
-lower left corner. Ghosts lie outside: `ghosts.fill` makes them, the loop knows no walls.
+outer ones on the walls; between periodic sides the last node repeats the first. Cell (j, i) has node (j, i)
+as its lower left corner. Ghosts lie outside: `ghosts.fill` sets them, the loop knows no walls.
 """
 from continuum.fluid import conductivity, pressure, stress, temperature, viscosity
 from continuum.gas.ghosts import RHO, VX, VY, E, EdgeHeat, FluxForm, PaperForm, fill, node_density
@@ -18,7 +18,7 @@ def density_rate(form, S, n, j, i):
 
 @density_rate.of(FluxForm)
 def _(form, S, n, j, i):
-    """-div(rho v) times 2 h: what goes through the faces of cell (j, i)."""
+    """-div(rho v) times 2 h, from the mass fluxes through the faces of cell (j, i)."""
     vx, vy, a, b = S[VX], S[VY], j % 2, (j + 1) % 2
     return (n[a, i]*(vx[j, i] + vy[j, i]) - n[a, i + 1]*(vx[j, i + 1] - vy[j, i + 1])
             + n[b, i]*(vx[j + 1, i] - vy[j + 1, i]) - n[b, i + 1]*(vx[j + 1, i + 1] + vy[j + 1, i + 1]))
@@ -34,7 +34,7 @@ def _(form, S, n, j, i):
 
 @generic
 def work(form, sxx, sxy, syy, P, f, xx, xy, yx, yy):
-    """(sigma - P):grad v times (2 h)^2 from sigma - P and differences; f is eta/(2 h)."""
+    """(sigma - P):grad v times 2 h, from sigma - P and differences of v times 2 h; f is eta/(2 h)."""
 
 
 @work.of(FluxForm)
@@ -50,7 +50,7 @@ def _(form, sxx, sxy, syy, P, f, xx, xy, yx, yy):
 
 @jit
 def corners(f, j, i):
-    """Mean over the corners of cell (j, i) and differences along x and y, times 2 h."""
+    """Mean over the corners of cell (j, i), and slopes along x and y times 2 h."""
     sw, se, nw, ne = f[j, i], f[j, i + 1], f[j + 1, i], f[j + 1, i + 1]
     up, down = ne - sw, se - nw
     return 0.25*((sw + ne) + (se + nw)), up + down, up - down
@@ -66,7 +66,7 @@ def node_row(eos, S, n, T, j):
 
 @jit
 def cell_row(eos, law, form, box, S, n, T, cell, out, j):
-    """Stress sigma - P, heat flux and work (sigma - P):grad v in the cells of row j; their density's rate."""
+    """Set sigma - P, k grad T and `work` in the cells of row j, and the rate of their density."""
     to_slope = 0.5/box.h
     rho, nx = S[RHO], S.shape[2] - 2
     a, b = j % 2, (j + 1) % 2
@@ -115,10 +115,10 @@ def along(f, vx, vy, j, i):
 
 @jit
 def rates(sides, eos, law, form, box, S, rows, out):
-    """d/dt of the state; three rows of `rows[2, 8, nx + 2]` pass over the grid, nothing else is stored."""
+    """d/dt of the block S; intermediate results are kept for two rows at a time, in `rows` (2, 8, nx + 2)."""
     fill(sides, eos, law, form, box, S)
     n, T, cell, ny = rows[:, 6], rows[:, 7], rows[:, :6], S.shape[1] - 2
-    if box.lowest == 1:     # what is below the first row of cells is the last one; ny is even
+    if box.lowest == 1:     # the last row of cells lies below the first; ny must be even
         node_row(eos, S, n[0], T[0], ny)
         node_row(eos, S, n[1], T[1], ny + 1)
         cell_row(eos, law, form, box, S, n, T, cell[0], out, ny)
@@ -141,7 +141,7 @@ def blend(a, b, s, out):
 
 @jit
 def advance(sides, eos, law, form, box, S, work, rows, dt, steps):
-    """Classical fourth-order Runge-Kutta steps; `work[3]` blocks like S, their wall rates zero."""
+    """Classical fourth-order Runge-Kutta steps, in place; `work` is three blocks like S, zero on walls."""
     rate, stage, start = work[0], work[1], work[2]
     for _ in range(steps):
         start[:] = S

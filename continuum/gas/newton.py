@@ -1,11 +1,11 @@
-"""Steady states and disturbances of the compressible grid: Newton's method on the rates of the loop.
+"""Steady states of the compressible grid by Newton's method, and growth rates of disturbances at rest.
 
-Between periodic sides the flow is taken as its own mirror image about the middle of a rising and of a falling
-stream, which leaves one half of the box and fixes the rolls. Slopes of the rates come from their differences:
-unknowns five nodes apart meet in no rate, so that a hundred pairs of evaluations give the sparse matrix.
+Between periodic sides the flow is taken as mirror-symmetric about the middles of rising and falling streams:
+one half of the box remains, and the place of the rolls is fixed. The Jacobian comes from central differences:
+no rate depends on two unknowns five nodes apart, so that a hundred pairs of evaluations give all of it.
 
-The grid keeps two sums of densities: the mass, and the sum with signs that alternate like the squares of a
-chessboard, which no node sees. Both are constraints of Newton's method.
+The grid conserves two sums of densities: the mass, and the sum with signs that alternate as on a chessboard,
+which no node sees. Both are constraints of Newton's method.
 """
 from dataclasses import replace
 from functools import cached_property
@@ -22,18 +22,18 @@ from continuum.gas.loop import rates
 from continuum.scene import Periodic
 from continuum.steady import WITHIN, largest, newton
 
-REACH = 2       # of a node or cell in rates, in rows and columns
-STEP = 1e-5     # of the differences: their error is about its square, and round-off over it
-# the implicit steps that lead to Newton's are RELAX/(largest rate of change) free-fall times long
+REACH = 2       # rows and columns over which a rate depends on nodes and cells
+STEP = 1e-5     # of the differences: their error is about STEP^2 + round-off/STEP
+# the implicit steps before Newton's are RELAX/(largest rate of change) free-fall times long
 RELAX = 1.0
-# K of rolls to start from, in free-fall units: from KHP95's, cold and stronger, it may end in other states
+# K of the initial rolls in free-fall units: KHP95's, cold and stronger, may lead to other steady states
 WEAK = 5e-4
 NEAR = 0.3
-STILL = 1e-10   # square of the share of the velocity below which a disturbance is a change of mass only
+STILL = 1e-10   # share of v in |disturbance|^2 below which the disturbance is a change of mass only
 
 
 class SteadyState(NamedTuple):
-    """A steady state: fields, kinetic energy per mass, number of rolls, largest change in each step."""
+    """A steady state: fields, kinetic energy per mass, rolls, largest change in each Newton step."""
     fields: NodeFields
     ke: float
     rolls: int
@@ -41,7 +41,7 @@ class SteadyState(NamedTuple):
 
 
 class Discrete:
-    """The rates of one scene on one grid as a function of q, deviations from the state at rest."""
+    """Rates of one scene on one grid as a function of q, the deviations from the state at rest."""
 
     def __init__(self, scene, rows: int):
         self.scene, self.rest = scene, block(initial(scene, rows, 0.0))
@@ -51,7 +51,7 @@ class Discrete:
         self.places, self.mirrors, self.signs = self._unknowns(rows, columns)
 
     def _unknowns(self, rows: int, columns: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Places (3, n) = field, row, column of the unknowns, of their mirror images, and signs."""
+        """(3, n) = field, row, column of unknowns, the same of their mirror images, signs of the images."""
         half = isinstance(self.scene.sides, Periodic)
         last = columns//2 + 1 if half else columns
         inner, nodes = range(2, rows + 1), range(1 if half else 2, last + 1)
@@ -65,14 +65,14 @@ class Discrete:
         return places, mirrors, signs
 
     def state(self, q: np.ndarray) -> np.ndarray:
-        """The block of the loop, without ghosts."""
+        """The block S of the deviations q, without ghosts."""
         S = self.rest.copy()
         S[tuple(self.mirrors)] = self.rest[tuple(self.mirrors)] + self.signs*q
         S[tuple(self.places)] = self.rest[tuple(self.places)] + q
         return S
 
     def unknowns(self, S: np.ndarray) -> np.ndarray:
-        """The deviations of a block from rest."""
+        """The deviations q of a block from the state at rest."""
         return (S - self.rest)[tuple(self.places)]
 
     def rates(self, q: np.ndarray) -> np.ndarray:
@@ -82,14 +82,14 @@ class Discrete:
 
     @property
     def kept(self) -> list[np.ndarray]:
-        """Weights of the kept sums of densities; between mirrors the chessboard is zero."""
+        """Weights of the conserved sums of densities; with mirror symmetry the chessboard sum is zero."""
         field, j, i = self.places
         mass, chess = 1.0*(field == RHO), (field == RHO)*(-1.0)**(i + j)
         return [mass] if isinstance(self.scene.sides, Periodic) else [mass, chess]
 
     @cached_property
     def pattern(self) -> sparse.csc_array:
-        """Which rate depends on which unknown, at most."""
+        """Sparsity pattern of the Jacobian, an upper bound."""
         fields, height, width = self.rest.shape
         meet = sparse.kron(np.ones((fields, fields)), sparse.kron(near(height), near(width))).tocsr()
         places, mirrors = (np.ravel_multi_index(tuple(at), self.rest.shape)
@@ -98,14 +98,14 @@ class Discrete:
 
     @cached_property
     def groups(self) -> list[np.ndarray]:
-        """Unknowns that meet in no rate, together."""
+        """Groups of unknowns of which no rate depends on two."""
         period = 2*REACH + 1
         f, j, i = self.places
         colour = (f*period + j % period)*period + i % period
         return [np.flatnonzero(colour == c) for c in np.unique(colour)]
 
     def jacobian(self, q: np.ndarray) -> sparse.csc_array:
-        """Slopes of the rates, by central differences."""
+        """Jacobian of the rates, by central differences."""
         rows, columns, values = [], [], []
         for group in self.groups:
             shift = np.zeros_like(q)
@@ -119,35 +119,35 @@ class Discrete:
                                 self.pattern.shape)
 
     def fields(self, q: np.ndarray) -> tuple[NodeFields, np.ndarray]:
-        """Fields, and the block with its ghosts."""
+        """Fields of q, and its block with ghosts."""
         S = self.state(q)
         fill(*self.laws, S)
         return unblock(self.scene, S), S
 
 
 def near(n: int) -> sparse.coo_array:
-    """Which of n rows or columns are within reach of which."""
+    """Matrix (n, n): 1 where two of n rows or columns are within REACH of each other."""
     distance = np.abs(np.subtract.outer(np.arange(n), np.arange(n)))
     return sparse.coo_array(1.0*(distance <= REACH))
 
 
 def heat_of_rolls(scene, vy: np.ndarray) -> np.ndarray:
-    """Temperature of slow rolls as wide as high: kappa (2 pi^2/L^2) T' = v_y dT/L. Gas carries half of it
-    (adiabatic gradient) and conducts as much less (isobaric heat): the factors cancel."""
+    """Temperature deviation T' of slow rolls as wide as high: kappa (2 pi^2/L^2) T' = v_y dT/L. In a gas both
+    sides are halved, by the isobaric heat capacity and by the adiabatic gradient: the factors cancel."""
     return vy*scene.dT*scene.L/(2*np.pi**2*scene.kappa)
 
 
 def warm_rolls(scene, rows: int, ke: float) -> NodeFields:
-    """KHP95's initial rolls of kinetic energy `ke` per mass, with their heat."""
+    """KHP95's initial rolls of kinetic energy `ke` per mass, with the temperature of slow rolls."""
     fields = initial(scene, rows, ke)
     T = fields.at.T + heat_of_rolls(scene, fields.at.vy)
     return replace(fields, at=fields.at._replace(T=T, e=energy(scene.eos, fields.at.rho, T)))
 
 
 def steady(scene, rows: int, start: NodeFields | None = None) -> SteadyState:
-    """The steady state by Newton's method from a start, of any grid or Ra; by default from weak rolls.
+    """Steady state by Newton's method from `start`, on any grid and at any Ra; by default from weak rolls.
 
-    At rest below onset. Raises NewtonFailed: no convergence.
+    Below onset it is at rest. Raises NewtonFailed: no convergence.
     """
     equations, unit = Discrete(scene, rows), scene.L/scene.free_fall
     start = warm_rolls(scene, rows, WEAK*scene.free_fall**2) if start is None else onto(scene, rows, start)
@@ -161,10 +161,10 @@ def steady(scene, rows: int, start: NodeFields | None = None) -> SteadyState:
 
 
 def step(equations: Discrete, q: np.ndarray, rates: np.ndarray, dt: float) -> np.ndarray:
-    """The change of q in an implicit step; dt = inf makes it Newton's.
+    """Change of q in an implicit step; dt = inf makes it Newton's.
 
-    Of the rates of densities one follows from the others for each kept sum. It gives way to "no change of
-    this density", and what such a change alone would do, `free`, is added so that the sums are kept.
+    For each conserved sum one rate of a density follows from the others. Its row becomes "no change of this
+    density". Then multiples of `free`, the response to unit changes of these densities, conserve the sums.
     """
     kept = np.array(equations.kept)
     spare = np.flatnonzero(equations.places[0] == RHO)[:len(kept)]
@@ -179,14 +179,14 @@ def step(equations: Discrete, q: np.ndarray, rates: np.ndarray, dt: float) -> np
 
 
 def growth_rate(scene, rows: int) -> float:
-    """Growth rate of the fastest disturbance of the fluid at rest that moves it, per unit of time.
+    """Largest growth rate of a disturbance with flow of the fluid at rest, per unit of time.
 
-    Looked for around NEAR per free-fall time, which is above it. Between periodic sides disturbances of all
-    widths count that have the mirror planes of the box's pair of rolls. A change of mass does not count.
+    It is sought around NEAR per free-fall time, which lies above it. Between periodic sides disturbances of
+    any width count that have the mirror planes of the box's pair of rolls. Changes of mass alone do not.
     """
     equations = Discrete(scene, rows)
     q = np.zeros(equations.places.shape[1])
-    first = np.sin(1.0 + np.arange(len(q)))     # any will do, but the same each time
+    first = np.sin(1.0 + np.arange(len(q)))     # any vector will do, but it must be the same each time
     rates, modes = eigs(equations.jacobian(q), 8, sigma=NEAR*scene.free_fall/scene.L, v0=first)
     moves = (np.abs(modes[equations.places[0] <= VY])**2).sum(axis=0) > STILL*(np.abs(modes)**2).sum(axis=0)
     return float(rates.real[moves].max())

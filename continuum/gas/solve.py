@@ -1,4 +1,4 @@
-"""Compressible Navier-Stokes-Fourier between two plates on a regular grid [KHP95, Sec. V]: the driver.
+"""Solver of the compressible Navier-Stokes-Fourier equations on a regular grid    [KHP95, Sec. V]
 
     solution = run(RayleighBenard(ra=1e4), rows=32)
     solutions = steady_on(RayleighBenard(ra=1e4), (16, 24, 32, 48))
@@ -21,12 +21,12 @@ from continuum.steady import RK4_DECAY, RK4_SOUND, GridRun, Steady, of_samples, 
 
 
 class DivergedError(ArithmeticError):
-    """The solution is not finite any more or left the validity of its equation of state."""
+    """The solution is no longer finite, or it left the range in which its equation of state is valid."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Solution(GridRun):
-    """What a run ended with; the three numbers of `nusselt` agree to the error of the grid when steady."""
+    """Result of a run; in a steady state the three numbers of `nusselt` agree to the error of the grid."""
     scene: Any
     rows: int
     fields: NodeFields
@@ -34,13 +34,13 @@ class Solution(GridRun):
 
     @property
     def nu(self) -> float:
-        """Nusselt number: of the volume, of second order; between side walls of the plates."""
+        """Nusselt number: of the volume, of second order; between side walls the mean of both plates."""
         plates = (self.nusselt.bottom + self.nusselt.top)/2
         return self.nusselt.volume if self.fields.periodic else plates
 
 
 class Limits(NamedTuple):
-    """Largest stable steps: for sound and advection alone, for diffusion alone, for both."""
+    """Largest stable time steps: for sound and advection alone, for diffusion alone, for both together."""
     sound: float
     diffusion: float
 
@@ -50,7 +50,7 @@ class Limits(NamedTuple):
 
 
 def limits(scene, S: np.ndarray) -> Limits:
-    """From the fastest wave and the largest diffusivity; compact differences see wave numbers to 2/h."""
+    """From the fastest wave and the largest diffusivity; compact differences have wave numbers up to 2/h."""
     h, rho, (vx, vy, e) = scene.L/(S.shape[1] - 2), grid.mean(S[RHO]), (S[f, 1:, 1:] for f in (VX, VY, E))
     spread = fluid.diffusivity(scene.eos, scene.law, rho, e)
     fast = 2*sound_of_grid(scene.eos, rho, e) + np.abs(vx) + np.abs(vy)
@@ -59,15 +59,15 @@ def limits(scene, S: np.ndarray) -> Limits:
 
 
 def sound_of_grid(eos, rho, e):
-    """Largest omega h/2: omega^2 = (4/h^2) s (P_rho + (1 - s) P P_e/rho^2), 0 < s < 1: e is that of cells."""
+    """Largest omega h/2 of sound, omega^2 = (4/h^2) s (P_rho + (1 - s) P P_e/rho^2); 1 - s: e is averaged."""
     a, b = fluid.pressure_slopes(eos, rho, e)
     b = b*fluid.pressure(eos, rho, e)/rho**2
-    inside = np.where(b > a, b, a)  # the maximum over s lies inside if b > a, else at s = 1
+    inside = np.where(b > a, b, a)  # the maximum over 0 < s <= 1 lies inside if b > a, else at s = 1
     return (a + inside)/(2*np.sqrt(inside))
 
 
 class March:
-    """A block in motion."""
+    """A block that is stepped in time."""
 
     def __init__(self, scene, S: np.ndarray, continuity, dt: float):
         rows, columns = S.shape[1] - 2, S.shape[2] - 2
@@ -83,11 +83,11 @@ class March:
         return self.steps*self.dt
 
     def advance(self, steps: int) -> None:
-        """Steps, whatever comes out."""
+        """Make steps without checking the result."""
         advance(*self.laws, self.S, *self.scratch, self.dt, steps)
 
     def go(self, steps: int) -> None:
-        """Advance; if that fails, go back and find out where it did."""
+        """Make steps; if the state becomes invalid, go back and step singly. Raises DivergedError: where."""
         before = self.S.copy()
         self.advance(steps)
         self.steps += steps
@@ -104,14 +104,14 @@ class March:
 
 
 def faults(scene, S: np.ndarray) -> np.ndarray:
-    """True at nodes whose state cannot be."""
+    """True at nodes whose state is not finite or not valid."""
     rho, e = grid.mean(S[RHO]), S[E, 1:, 1:]
     with np.errstate(all="ignore"):
         return ~(np.isfinite(S[:, 1:, 1:]).all(axis=0) & fluid.valid(scene.eos, rho, e))
 
 
 def first_fault(scene, S: np.ndarray) -> str:
-    """The first node whose state cannot be, where it is, and what it has; empty if there is none."""
+    """Message on the first invalid node: its place and its state; empty if all are valid."""
     bad = faults(scene, S)
     if not bad.any():
         return ""
@@ -139,7 +139,7 @@ def run(scene, rows: int, *, until: Any = Steady(), start: NodeFields | None = N
     until : Steady(rtol=...) or Time(t_end). start : fields of any grid; KHP95's two rolls by default.
     dt : largest step (by default 0.8 of the stability limit); the one taken divides the time between samples.
     continuity : FluxForm() or PaperForm(). progress : called with the fraction done.
-    Raises ValueError: rows odd or below 8, dt above the limit, an invalid start. DivergedError: where.
+    Raises ValueError: rows below 8, dt above the limit, an invalid start. DivergedError: where.
     """
     fields = grid.initial(scene, rows) if start is None else grid.onto(scene, rows, start)
     fluid.check_state(scene.eos, fields.at.rho, fields.at.e)
@@ -161,7 +161,7 @@ def run(scene, rows: int, *, until: Any = Steady(), start: NodeFields | None = N
 
 
 def steady_on(scene, sizes: Sequence[int], *, start: NodeFields | None = None, **options) -> list[Solution]:
-    """Steady solutions on ever finer grids, each from the one before."""
+    """Steady solutions on a sequence of grids, each started from the one before."""
     solutions: list[Solution] = []
     for rows in sizes:
         solutions.append(run(scene, rows, start=start, **options))

@@ -1,2 +1,2 @@
-"""The compressible gas again, solved with py-pde."""
+"""The compressible gas, solved with py-pde."""
 import continuum.jit  # noqa: F401  (before everything that loads numba)

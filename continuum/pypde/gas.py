@@ -1,12 +1,12 @@
-"""The compressible gas of KHP95 as an equation of py-pde, on a staggered grid of its own.
+"""The compressible gas of KHP95 as a py-pde equation, on another staggered grid than `continuum.gas`.
 
     drho/dt = -div(rho v)
     dv/dt   = -v.grad v + (div sigma - grad P)/rho - g e_y
     de/dt   = -v.grad e + (sigma:grad v - P div v - div Q)/rho
 
-rho and e sit in cells, v_x on their right and v_y on their upper sides: no density is needed at a plate, and
-mass is conserved to round-off. Only transport coefficients at a plate want a density: it is extrapolated. The
-upper row of v_y lies on the cold plate and stays zero; on a torus, which has no plates, it moves.
+rho and e sit in cells, v_x on their right and v_y on their upper sides: mass needs no density at a plate and
+is conserved to round-off. Only transport coefficients at a plate need a density, which is extrapolated. The
+upper row of v_y lies on the cold plate and stays zero; on a torus, without plates, it is stepped.
 """
 from typing import Any
 
@@ -18,7 +18,7 @@ from continuum.pypde.gas_loop import RHO, VX, VY, E, GasLoop, Mesh, coefficients
 from continuum.scene import ROLL_ENERGY, Periodic, Torus, columns_of
 from continuum.steady import RK4_DECAY, RK4_SOUND
 
-# where a field sits, in cells from the centre: x, y
+# offset (x, y) of each field from the centre of its cell, in cells
 HALF_UP = np.array([[0, 0], [1, 0], [0, 1], [0, 0]])/2
 
 
@@ -41,11 +41,11 @@ class Gas(PDEBase):
         self.loop = GasLoop(scene.eos, scene.law, box)
 
     def evolution_rate(self, state: Any, t: float = 0) -> Any:
-        """The rates for py-pde's own steppers."""
+        """Rates of change, as py-pde's own steppers call them."""
         return self.state(rate(self.loop, np.ascontiguousarray(state.data)))
 
     def state(self, data: np.ndarray) -> FieldCollection:
-        """Fields of py-pde from an array (fields, columns, rows)."""
+        """py-pde's fields from an array (fields, columns, rows)."""
         return FieldCollection([ScalarField(self.grid, f) for f in data], labels=list(self.names))
 
     @property
@@ -55,11 +55,11 @@ class Gas(PDEBase):
 
     @property
     def grid_box(self) -> tuple[float, float]:
-        """Width and height."""
+        """Width and height of the box."""
         return self.scene.width, self.scene.L
 
     def step_limit(self) -> float:
-        """Largest stable step of RK4 at density 1: sound and advection, and decay."""
+        """Largest stable time step of RK4 at density 1, from sound, advection and diffusion."""
         scene = self.scene
         c = max(sound_speed(scene.eos, 1.0, energy(scene.eos, 1.0, T)) for T in (scene.T_hot, scene.T_cold))
         wave = (2*np.sqrt(2)*c + scene.free_fall)/self.h
@@ -67,17 +67,17 @@ class Gas(PDEBase):
         return float(1/(decay/RK4_DECAY + wave/RK4_SOUND))
 
     def points(self, field: int) -> tuple[np.ndarray, np.ndarray]:
-        """x and y of a field's points, the ghosts' included."""
+        """Grid coordinates x, y of a field, ghosts included."""
         return tuple(low + self.h*(np.arange(n + 2) - 0.5 + up) for (low, _), n, up in zip(
             self.grid.axes_bounds, self.grid.shape, HALF_UP[field]))
 
     def mesh(self, field: int) -> tuple[np.ndarray, np.ndarray]:
-        """x and y of a field's values, (columns, rows) each."""
+        """x and y of a field's values, each (columns, rows)."""
         x, y = self.points(field)
         return np.repeat(x[1:-1, None], self.rows, axis=1), np.repeat(y[None, 1:-1], len(x) - 2, axis=0)
 
     def rolls(self, ke: float = ROLL_ENERGY) -> np.ndarray:
-        """Rolls of kinetic energy `ke` per mass at linear temperature    [KHP95, Sec. VI]"""
+        """Initial rolls of kinetic energy `ke` per mass with linear temperature    [KHP95, Sec. VI]"""
         data = np.ones((4, *self.grid.shape))
         data[VX] = self.scene.flow(*self.mesh(VX), ke=ke)[0]
         data[VY] = self.scene.flow(*self.mesh(VY), ke=ke)[1]
@@ -86,20 +86,20 @@ class Gas(PDEBase):
         return data
 
     def padded(self, data: np.ndarray) -> np.ndarray:
-        """(rho, v_x, v_y, e, T, eta, k) with their ghosts, each (columns+2, rows+2)."""
+        """(rho, v_x, v_y, e, T, eta, k) with ghosts, each (columns+2, rows+2)."""
         (eos, law, box), full = self.loop, np.empty((10, *(n + 2 for n in self.grid.shape)))
         fill(box, data, full)
         coefficients(eos, law, box, full)
         return full[:7]
 
     def repaired(self, data: np.ndarray) -> np.ndarray:
-        """An interpolated state with the mean density 1 and the cold plate at rest."""
+        """Restore mean density 1 and rest of the cold plate in an interpolated state, in place."""
         data[RHO] /= data[RHO].mean()
         data[VY, :, -1] = 0
         return data
 
     def trouble(self, data: np.ndarray) -> str:
-        """What is wrong with a state, if anything, and where."""
+        """Message on the first invalid cell of a state; empty if all are valid."""
         with np.errstate(all="ignore"):
             bad = ~(np.isfinite(data).all(axis=0) & valid(self.scene.eos, data[RHO], data[E]))
         if not bad.any():
@@ -115,12 +115,12 @@ class Gas(PDEBase):
         return float(twice/2/np.sum(data[RHO])), self.nusselt(data)[0], float(np.mean(data[RHO]))
 
     def rising(self, data: np.ndarray) -> np.ndarray:
-        """v_y at mid-height."""
+        """Vertical velocity along mid-height."""
         return data[VY, :, self.rows//2 - 1]
 
     def nusselt(self, data: np.ndarray) -> tuple[float, float]:
-        """Of the lower and the upper plate, from the heat that the scheme sends through them. One-sided
-        gradients of higher order would be worse: friction heats what is near the plate."""
+        """Nusselt numbers of the lower and the upper plate, from the scheme's own heat flux. One-sided
+        gradients of higher order would be worse, because of viscous heating near the plate."""
         *_, T, _, k = self.padded(data)
         down = (my(k)*(np.diff(T)/self.h))[1:-1].mean(axis=0)
         unit = self.scene.k*self.scene.dT/self.scene.L
@@ -128,10 +128,10 @@ class Gas(PDEBase):
 
 
 def mx(f):
-    """Mean of neighbours in x, between them."""
+    """Means of neighbours in x, midway between them."""
     return 0.5*(f[1:] + f[:-1])
 
 
 def my(f):
-    """Mean of neighbours in y, between them."""
+    """Means of neighbours in y, midway between them."""
     return 0.5*(f[:, 1:] + f[:, :-1])

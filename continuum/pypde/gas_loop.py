@@ -1,8 +1,8 @@
-"""The compiled rates of `continuum.pypde.gas`: the same terms, point by point.
+"""Compiled rates of the equations in `continuum.pypde.gas`.
 
-`S[field, i, j]` holds the state with one row of ghosts around and what is derived from it; i counts columns,
-j rows. rho, e, T, coefficients and normal stresses are in cell (i, j), v_x on its right and v_y on its upper
-side, the shear stress at its upper right corner.
+`S[field, i, j]` holds the state and the fields derived from it, with one row of ghosts around; i counts
+columns, j rows. rho, e, T, coefficients and normal stresses are in cell (i, j), v_x on its right and v_y on
+its upper side, the shear stress at its upper right corner.
 """
 from typing import Any, NamedTuple
 
@@ -16,16 +16,16 @@ RHO, VX, VY, E, T, ETA, K, SXX, SYY, SXY = range(10)
 
 
 class Mesh(NamedTuple):
-    """What the loops need beside fluid and state."""
+    """Data that the loops need besides fluid and state."""
     h: float
     g: float
     T_hot: float
     T_cold: float
-    torus: bool         # no plates: periodic in y, too
+    torus: bool         # periodic in y too, without plates
 
 
 class GasLoop(NamedTuple):
-    """What `rate` takes: fluid, transport law, box."""
+    """Arguments of `rate`: equation of state, transport law, box."""
     eos: Any
     law: Any
     box: Mesh
@@ -33,7 +33,7 @@ class GasLoop(NamedTuple):
 
 @jit
 def fill(box, data, S):
-    """Copy the state between ghosts: periodic in x; plates that the gas sticks to; rho and e extrapolated."""
+    """Copy the state into S and set ghosts: periodic in x, no slip at plates, rho and e extrapolated."""
     nx, ny = data.shape[1:]
     for f in range(4):
         a, b = ((2.0, -1.0), (-1.0, 0.0), (0.0, 0.0), (2.0, -1.0))[f]
@@ -51,7 +51,7 @@ def fill(box, data, S):
 
 @jit
 def coefficients(eos, law, box, S):
-    """Temperature, viscosity and conductivity at all points."""
+    """Set temperature, viscosity and conductivity in all cells, ghosts included."""
     nx, ny = S.shape[1] - 2, S.shape[2] - 2
     for i in range(nx + 2):
         for j in range(1, ny + 1):
@@ -74,13 +74,13 @@ def corner_strain(box, S, i, j):
 
 @formula
 def cell_strain(box, S, i, j):
-    """d v_x/dx, d v_y/dy in a cell."""
+    """(d v_x/dx, d v_y/dy) in a cell."""
     return (S[VX, i, j] - S[VX, i - 1, j])/box.h, (S[VY, i, j] - S[VY, i, j - 1])/box.h
 
 
 @jit
 def stresses(eos, box, S):
-    """sigma - P in cells, shear stress at their upper right corners."""
+    """Set normal components of sigma - P in cells and the shear stress at upper right corners."""
     for i in range(S.shape[1] - 1):
         for j in range(S.shape[2] - 1):
             eta = 0.25*(S[ETA, i, j] + S[ETA, i + 1, j] + S[ETA, i, j + 1] + S[ETA, i + 1, j + 1])
@@ -104,7 +104,7 @@ def compress(box, S, i, j):
 
 @formula
 def carry(box, u, v, i, j):
-    """v.grad u of the component u along i, on that side of a cell; v is the other one."""
+    """v.grad u on the side of a cell where u sits, the velocity along i; v is the other component."""
     along = (u[i + 1, j] + u[i, j])*(u[i + 1, j] - u[i, j]) + (u[i, j] + u[i - 1, j])*(u[i, j] - u[i - 1, j])
     across = ((v[i, j] + v[i + 1, j])*(u[i, j + 1] - u[i, j])
               + (v[i, j - 1] + v[i + 1, j - 1])*(u[i, j] - u[i, j - 1]))
@@ -122,14 +122,14 @@ def carry_e(box, S, i, j):
 
 @formula
 def push(box, normal, shear, rho, i, j):
-    """div (sigma - P)/rho along i on that side of a cell."""
+    """Component along i of div (sigma - P)/rho, on the side of a cell where that velocity sits."""
     force = (normal[i + 1, j] - normal[i, j]) + (shear[i, j] - shear[i, j - 1])
     return 2*force/(rho[i, j] + rho[i + 1, j])/box.h
 
 
 @formula
 def corner_work(box, S, i, j):
-    """sigma_xy times its strain at the upper right corner of a cell."""
+    """sigma_xy times the shear rate at the upper right corner of a cell."""
     return S[SXY, i, j]*corner_strain(box, S, i, j)
 
 
@@ -155,7 +155,7 @@ def conduct(box, S, i, j):
 
 @jit
 def rate(loop, data):
-    """d/dt of the state, a new array."""
+    """d/dt of the state as a new array, (fields, columns, rows)."""
     (eos, law, box), (nx, ny) = loop, data.shape[1:]
     S, out = np.empty((10, nx + 2, ny + 2)), np.empty_like(data)
     fill(box, data, S)

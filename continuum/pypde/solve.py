@@ -1,8 +1,8 @@
-"""A solver for the compressible gas with py-pde.
+"""Solver of the compressible gas with py-pde.
 
     solve(Gas(RayleighBenard(ra=1e4), rows=32), until=Time(100))
 
-Second order in space, different from the other grids here in unknowns and placing.
+It is of second order in space; unknowns and their places differ from those of the other grids here.
 """
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -25,7 +25,7 @@ Progress = Callable[[float], None]
 
 
 class Watch(TrackerBase):
-    """Records t, K, Nu, mass; checks the state; reports progress; ends the run when its rule says so."""
+    """Tracker: records t, K, Nu, mass, checks the state, reports progress, ends the run by its rule."""
 
     def __init__(self, equation: Any, until: Until, interval: float, dt: float, progress: Progress | None):
         super().__init__(interrupts=ConstantInterrupts(interval))
@@ -49,14 +49,14 @@ class Watch(TrackerBase):
 
 
 class StageLoop(SolverBase):
-    """Classical Runge-Kutta in a loop kept on disk: what py-pde makes compiles at every call."""
+    """Classical Runge-Kutta in a compiled loop cached on disk; py-pde's own compiles at every call."""
 
     name = "runge-kutta stage loop"
     pde: Any
 
     def _make_inner_stepper(self, state: Any) -> Callable:
         loop, dt = self.pde.loop, self.info["dt"]
-        steps(loop, state.data, dt, 0)      # compiles it: py-pde counts that apart
+        steps(loop, state.data, dt, 0)      # compiles the loop: py-pde times this separately
 
         def stepper(data, t_start, t_end):
             count = max(1, round((t_end - t_start)/dt))
@@ -69,7 +69,7 @@ class StageLoop(SolverBase):
 
 @jit
 def steps(loop, data, dt, count):
-    """`count` steps of classical Runge-Kutta, in place."""
+    """Make `count` steps of classical Runge-Kutta, in place."""
     for _ in range(count):
         total, stage = data.copy(), data.copy()
         for to_stage, weight in ((0.5, 1/6), (0.5, 1/3), (1.0, 1/3), (0.0, 1/6)):
@@ -89,23 +89,23 @@ def advance(data, rate, to_stage, weight, stage, total):
 
 @dataclass(frozen=True, kw_only=True)
 class PdeSolution(GridRun):
-    """What a run ended with, in the units of the scene. nusselt : of the lower and of the upper plate."""
+    """Result of a run, in units of the scene; nusselt : of the lower and of the upper plate."""
     equation: Any
     state: np.ndarray = field(repr=False)
     nusselt: tuple[float, float]
 
     @property
     def nu(self) -> float:
-        """Mean Nusselt number of the two plates."""
+        """Mean of the Nusselt numbers of both plates."""
         return sum(self.nusselt)/2
 
 
 def solve(equation: Any, *, until: Until = Steady(), start: PdeSolution | np.ndarray | None = None,  # noqa: B008
           dt: float | None = None, progress: Progress | None = None) -> PdeSolution:
-    """Solve an equation, a `Gas`.
+    """Solve an equation, an object of `Gas`.
 
     until : Steady(rtol=...) or Time(t_end) of `continuum.steady`.
-    start : a solution of the same box on any grid, or a state (fields, columns, rows); KHP95's rolls if none.
+    start : a solution in the same box on any grid, or a state (fields, columns, rows); by default rolls.
     dt : largest step (by default 0.8 of the stability limit); the one taken divides the time between samples.
     progress : called with the fraction done.
     Raises ValueError: dt above the stability limit; a start from another box. DivergedError: when and where.
@@ -119,7 +119,7 @@ def solve(equation: Any, *, until: Until = Steady(), start: PdeSolution | np.nda
         state, info = equation.solve(equation.state(data), t_range=inf, dt=step, tracker=[watch],
                                      solver=StageLoop, backend="numpy", ret_info=True)
     finally:
-        # py-pde takes Ctrl-C for an early end
+        # py-pde treats Ctrl-C as a regular end
         if equation.diagnostics.get("controller", {}).get("stop_reason") == "User interrupted simulation":
             raise KeyboardInterrupt
     seconds, solver = info["controller"]["profiler"], info["solver"]
@@ -131,13 +131,13 @@ def solve(equation: Any, *, until: Until = Steady(), start: PdeSolution | np.nda
 
 
 def count_rolls(v: np.ndarray) -> int:
-    """Changes of sign of the vertical velocity along mid-height; below 5 % of its largest it is zero."""
+    """Number of rolls: changes of sign of v_y along mid-height, where it is above 5 % of its largest."""
     up = v[np.abs(v) > 0.05*np.abs(v).max()] > 0
     return int(np.sum(up != np.roll(up, 1)))
 
 
 def onto(equation: Any, start: PdeSolution) -> np.ndarray:
-    """The state of a solution on another grid: cubic splines through its points and ghosts."""
+    """State of a solution on another grid, by cubic splines through its values and ghosts."""
     old = start.equation
     if not np.allclose(old.grid_box, equation.grid_box):
         raise ValueError(f"start is in a box {old.grid_box}, the equation in {equation.grid_box}: start from "

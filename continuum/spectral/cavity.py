@@ -1,8 +1,8 @@
-"""The square with a hot left side, a cold right one, insulated above and below, as a Boussinesq fluid.
+"""Boussinesq fluid in a square with a hot left and a cold right side, insulated above and below.
 
-Polynomials along both axes. Velocities vanish at all sides; T is warm - x, and what is warm vanishes left and
-right, while above and below no heat leaves because no term lets it. Half a turn maps the flow onto itself: of
-the products of two polynomials one half is left out.
+Basis functions are polynomials along both axes. Velocities vanish at all sides. T = warm - x, where `warm`
+vanishes left and right; above and below insulation is the natural boundary condition. The flow is symmetric
+under rotation by half a turn, so that one half of the products of two polynomials is left out.
 
     observed(steady(CavityLaws(1e6, 0.71), 48))["nu"]
 """
@@ -18,16 +18,16 @@ from continuum.spectral.newton import Galerkin, SpectralState, relaxed
 
 @dataclass(frozen=True)
 class CavityLaws(BoussinesqLaws):
-    """In free-fall units of the height and the difference of both sides."""
+    """Laws of the cavity in free-fall units: its height and the temperature difference of its sides are 1."""
     width: float = 1.0
 
     def terms(self, at: np.ndarray, x: np.ndarray) -> np.ndarray:
-        """(law, term, ...), as of `BoussinesqLaws`, at places along x."""
+        """(law, term, ...) as in `BoussinesqLaws`, at positions x."""
         return self.of_T(at, at[3, 0] - x, x, (1, 0))
 
 
 class Cavity(Galerkin):
-    """The same polynomials along both axes, but those of T need not vanish above and below."""
+    """Galerkin's equations with polynomials along both axes; those of T do not vanish above and below."""
 
     def __init__(self, laws: CavityLaws, n: int):
         super().__init__(laws, n)
@@ -35,24 +35,24 @@ class Cavity(Galerkin):
         self.y = self.x._replace(functions=self.x.functions[:, [VX, VY, RHO, RHO]])
         self.weights = np.outer(self.x.weights, self.x.weights)
         odd = np.add.outer(np.arange(n), np.arange(n)) % 2 == 1
-        self.kept = np.array([odd, odd, ~odd, odd])     # u, v and T change their sign by half a turn
-        self.kept[RHO, 0, 0] = False        # the mean
+        self.kept = np.array([odd, odd, ~odd, odd])     # u, v and T change sign under half a turn
+        self.kept[RHO, 0, 0] = False        # the mean is fixed
 
     def terms(self, at: np.ndarray) -> np.ndarray:
         return self.laws.terms(at, self.x.points[:, None])  # type: ignore[no-any-return]
 
 
 def steady(laws: CavityLaws, n: int, start: SpectralState | None = None) -> SpectralState:
-    """The steady state on n polynomials along an axis that a start leads to, by default that at rest.
+    """Steady state with n polynomials along an axis, reached from `start`, by default from rest.
 
-    Raises ValueError: n. NewtonFailed: no convergence; start from a smaller Ra.
+    Raises ValueError: n is out of range. NewtonFailed: no convergence; start from a smaller Ra.
     """
     return relaxed(Cavity(laws, n), start.on(n) if start else np.zeros((4, n, n)))
 
 
 def observed(state: SpectralState) -> dict[str, float]:
-    """The numbers that de Vahl Davis prints, by the names in `published/devahldavis.csv`: velocities in
-    kappa/L, places in L from the lower left corner."""
+    """The numbers that de Vahl Davis prints, named as in `published/devahldavis.csv`: velocities in
+    kappa/L, positions in L from the lower left corner."""
     equations, kappa = state.equations, state.equations.laws.units[2]
     u, v, _, warm = series(state)
     heat = np.average(equations.terms(state.at)[T, 1], weights=equations.weights)/kappa
@@ -65,7 +65,7 @@ def observed(state: SpectralState) -> dict[str, float]:
 
 
 def series(state: SpectralState) -> np.ndarray:
-    """Coefficients (4, n + 2, n + 2) of P_k(2x) P_m(2y) in the fields."""
+    """Legendre coefficients (4, n + 2, n + 2) of the fields, those of P_k(2x) P_m(2y)."""
     a = np.pad(state.equations.amplitudes(state.q), ((0, 0), (0, 2), (0, 2)))
     zero_x, zero_y = [VX, VY, T], [VX, VY]
     a[zero_x, 2:] -= a[zero_x, :-2]
@@ -74,7 +74,7 @@ def series(state: SpectralState) -> np.ndarray:
 
 
 def peak(line: np.ndarray) -> tuple[float, float]:
-    """The largest value of a series in P_k(2s) on -1/2 < s < 1/2, and its distance from the lower end."""
+    """Maximum of a series in P_k(2s) on -1/2 < s < 1/2, and its distance from the lower end."""
     roots = legendre.legroots(legendre.legder(line))
     inside = roots.real[(abs(roots.imag) < 1e-9) & (abs(roots.real) < 1)]
     z = np.array([-1.0, *inside, 1.0])

@@ -1,8 +1,8 @@
 """Conservation laws at a point: d(stored)/dt = source - d(flux_x)/dx - d(flux_y)/dy.
 
-They are those of momentum along x and y, mass, energy. Lengths are in heights of the layer. Fields come as
-(4, 3, ...): v_x, v_y, density or pressure, temperature, as deviations from the motionless state, each with
-its slopes along x and y. The formulas are analytic: steps along the imaginary axis give exact slopes.
+The laws are those of x and y momentum, mass and energy. Lengths are in heights of the layer. Fields are given
+as (4, 3, ...): v_x, v_y, density or pressure, temperature, as deviations from the state at rest, each with
+its slopes along x and y. The formulas are analytic, so that complex steps give exact derivatives.
 """
 from dataclasses import dataclass
 from typing import Any
@@ -14,7 +14,7 @@ from continuum.fluid import conductivity, energy, pressure, stress, viscosity
 
 @dataclass(frozen=True)
 class GasLaws:
-    """The compressible gas of a layer, a `RayleighBenard` or alike, its units of velocity and temperature."""
+    """Laws of the compressible gas in a layer; scene : `RayleighBenard` or another with its attributes."""
     scene: Any
 
     @property
@@ -23,11 +23,11 @@ class GasLaws:
 
     @property
     def units(self) -> tuple[float, float, float]:
-        """Velocity of free fall, dT, heat that the motionless layer conducts."""
+        """Units: free-fall velocity, temperature difference, heat flux of conduction alone."""
         return self.scene.free_fall, self.scene.dT, self.scene.k*self.scene.dT/self.scene.L
 
     def terms(self, at: np.ndarray, y: np.ndarray) -> np.ndarray:
-        """(law, term, ...): source, flux_x, flux_y, stored, of momentum, mass, total energy."""
+        """(law, term, ...): terms source, flux_x, flux_y, stored, of momentum, mass, total energy."""
         scene, (u, u_x, u_y), (v, v_x, v_y), (warm, T_x, T_y) = self.scene, *at[[0, 1, 3]]
         rho, T, weight = 1 + at[2, 0], warm + scene.T(scene.L*y), scene.g*scene.L
         e, k = energy(scene.eos, rho, T), conductivity(scene.law, rho, T)/scene.L
@@ -43,22 +43,22 @@ class GasLaws:
 
 @dataclass(frozen=True)
 class BoussinesqLaws:
-    """The Boussinesq fluid in free-fall units; the third field is the pressure, the fourth law that of T."""
+    """Laws of the Boussinesq fluid in free-fall units; third field: pressure; fourth law: that of T."""
     ra: float
     pr: float
     width: float = 2.0
 
     @property
     def units(self) -> tuple[float, float, float]:
-        """As of `GasLaws`; the last is the thermal diffusivity."""
+        """As in `GasLaws`; the last is the thermal diffusivity."""
         return 1.0, 1.0, float((self.pr*self.ra)**-0.5)
 
     def terms(self, at: np.ndarray, y: np.ndarray) -> np.ndarray:
-        """(law, term, ...): source, flux_x, flux_y, stored."""
+        """(law, term, ...): terms source, flux_x, flux_y, stored."""
         return self.of_T(at, at[3, 0], y, (0, 1))
 
     def of_T(self, at: np.ndarray, lift: np.ndarray, s: np.ndarray, falls: tuple[int, int]) -> np.ndarray:
-        """The same where T = warm - s, which falls by (1, 0) or (0, 1), and `lift` pushes upwards."""
+        """Terms with T = warm - s, `falls` = grad s, (1, 0) or (0, 1), and `lift`, the buoyancy."""
         (u, u_x, u_y), (v, v_x, v_y), (p, _, _), (warm, T_x, T_y) = at
         nu, kappa, T = float((self.pr/self.ra)**0.5), self.units[2], warm - s
         return stacked([
@@ -69,5 +69,5 @@ class BoussinesqLaws:
 
 
 def stacked(laws: list) -> np.ndarray:
-    """One array of terms, some of which are numbers."""
+    """Terms as one array; those that are numbers are broadcast."""
     return np.array([np.broadcast_arrays(*law, laws[0][1])[:-1] for law in laws])

@@ -1,10 +1,10 @@
-"""Functions that fields are made of: waves in x, polynomials in y, and the points where they are looked at.
+"""Basis functions of fields: waves in x, polynomials in y, and the quadrature points along both axes.
 
-One half of a pair of rolls is enough: the flow is its own mirror image about the middle of a rising and of a
-falling stream. So v_x is made of sines, all else of cosines of 2 pi k x/width, k < n. In y there are n
-polynomials, P_m - P_(m+2) for what vanishes at the plates, P_m for density or pressure, P_m being Legendre's:
-they span what Chebyshev's span, and their integrals are better conditioned. Velocities so have two degrees
-more than the pressure, which leaves no false pressures.
+Half of a pair of rolls is enough: the flow is mirror-symmetric about the middles of rising and falling
+streams. So v_x is a sum of sines, each other field of cosines of 2 pi k x/width, k < n. In y there are n
+polynomials, with Legendre's P_m: P_m - P_(m+2) for fields that vanish at the plates, P_m for density or
+pressure. They span the same space as Chebyshev's, and their integrals are better conditioned. Velocities have
+two degrees more than the pressure, which excludes spurious pressure modes.
 """
 from functools import lru_cache
 from typing import NamedTuple
@@ -13,11 +13,11 @@ import numpy as np
 from numpy.polynomial import legendre
 
 VX, VY, RHO, T = range(4)   # fields; of a Boussinesq fluid the third is the pressure
-POINTS = 1.5                # for each function, along each axis: integrals of three functions are exact
+POINTS = 1.5                # per function, along each axis: integrals of products of three are exact
 
 
 class Along(NamedTuple):
-    """Points and weights along an axis; functions of each field there and their slopes (2, 4, points, n)."""
+    """Points and weights along an axis; values and slopes of each field's functions, (2, 4, points, n)."""
     points: np.ndarray
     weights: np.ndarray
     functions: np.ndarray
@@ -25,7 +25,7 @@ class Along(NamedTuple):
 
 @lru_cache(maxsize=8)
 def along_x(n: int, width: float) -> Along:
-    """Waves on 0 < x < width/2, lengths in heights of the layer."""
+    """Waves on 0 < x < width/2; lengths are in heights of the layer."""
     count = int(POINTS*n) + 1
     x = (np.arange(count) + 0.5)/count*width/2
     k = 2*np.pi*np.arange(n)/width

@@ -1,8 +1,8 @@
-"""Steady states by Galerkin's method for `laws` and Newton's method with exact slopes.
+"""Steady states of `laws` by Galerkin's method and Newton's method with an exact Jacobian.
 
-Each law is multiplied by the functions of its own field and integrated. Its fluxes go with the slopes of the
-functions, so that nothing is differentiated twice, and the law of all mass is met by any state: in its place
-the mean of density or pressure is kept, by leaving its function out.
+Each law is multiplied by the functions of its own field and integrated. By integration in parts its fluxes
+multiply slopes of the functions: no second derivatives are needed. Any state obeys the law of total mass; it
+is replaced by a fixed mean of density or pressure, whose function is left out.
 """
 from collections.abc import Callable
 from functools import partial
@@ -15,14 +15,14 @@ from scipy.optimize import brentq
 from continuum.spectral.modes import RHO, VX, VY, T, along_x, along_y
 from continuum.steady import largest, newton
 
-TINY = 1e-30        # step along the imaginary axis: no difference is taken, so there is no round-off
-RISING = 0.2        # velocity and warmth, in units of the laws, of the stream to start from
-RELAX = 0.1         # implicit steps take RELAX/(largest rate): three times as much or as little serve, too
-MOST = 48           # functions along an axis: slopes are then 0.7 GB, and 28 have eight digits at Ra 20 000
+TINY = 1e-30        # complex step: no difference is taken, so that it has no round-off
+RISING = 0.2        # velocity and temperature of initial streams, in units of the laws
+RELAX = 0.1         # implicit steps are RELAX/(largest rate) long: a factor of 3 either way works, too
+MOST = 48           # functions along an axis: the Jacobian is then 0.7 GB; 28 give eight digits at Ra 20 000
 
 
 class Galerkin:
-    """Laws as a function of q, the amplitudes (4 fields, n waves, n polynomials) less those that are zero."""
+    """Rates as a function of q: amplitudes (4 fields, n waves, n polynomials) without those fixed at zero."""
 
     def __init__(self, laws: Any, n: int):
         if not 4 <= n <= MOST:
@@ -33,16 +33,16 @@ class Galerkin:
         self.weights = np.outer(self.x.weights, self.y.weights)
         self.kept = np.ones((4, n, n), bool)
         self.kept[VX, 0] = False            # sin(0)
-        self.kept[RHO, 0, 0] = False        # the mean
+        self.kept[RHO, 0, 0] = False        # the mean is fixed
 
     def amplitudes(self, q: np.ndarray) -> np.ndarray:
-        """All (4, n, n)."""
+        """All amplitudes (4, n, n) of q."""
         every = np.zeros(self.kept.shape)
         every[self.kept] = q
         return every
 
     def kinds(self, f: int) -> list[tuple[np.ndarray, np.ndarray]]:
-        """Functions of x and of y whose products make a field, its slope along x, along y."""
+        """Functions of x and of y whose products give field f, its slope along x, its slope along y."""
         (X, X1), (Y, Y1) = self.x.functions[:, f], self.y.functions[:, f]
         return [(X, Y), (X1, Y), (X, Y1)]
 
@@ -51,17 +51,17 @@ class Galerkin:
         return np.array([[X@a@Y.T for X, Y in self.kinds(f)] for f, a in enumerate(self.amplitudes(q))])
 
     def terms(self, at: np.ndarray) -> np.ndarray:
-        """Of the laws at the points, (law, term, points in x, in y)."""
+        """Terms of the laws at the points, (law, term, points in x, in y)."""
         return self.laws.terms(at, self.y.points)
 
     def rates(self, q: np.ndarray) -> np.ndarray:
-        """Integrals of each function with the rate of change of what its law stores."""
+        """Integrals of each function times the rate of change of the stored quantity of its law."""
         every = [sum(X.T@(self.weights*term)@Y for (X, Y), term in zip(self.kinds(f), law))
                  for f, law in enumerate(self.terms(self.at(q)))]
         return np.array(every)[self.kept]
 
     def slopes(self, q: np.ndarray, per_dt: float = 0.0) -> np.ndarray:
-        """Of (stored)/dt - rates, (unknowns, unknowns)."""
+        """Jacobian of stored*per_dt - rates, (unknowns, unknowns)."""
         at, n, kept = self.at(q), self.n, self.kept.ravel()
         every = np.zeros((4, n*n, 4, n*n))
         for b, t in np.ndindex(4, 3):
@@ -84,7 +84,7 @@ def products(test: tuple, c: np.ndarray, trial: tuple) -> np.ndarray:
 
 
 class SpectralState(NamedTuple):
-    """A steady state: its equations, amplitudes, largest changes in Newton's steps."""
+    """A steady state: its equations, amplitudes, largest change in each of Newton's steps."""
     equations: Galerkin
     q: np.ndarray
     changes: tuple[float, ...]
@@ -95,7 +95,7 @@ class SpectralState(NamedTuple):
         return self.equations.at(self.q)
 
     def on(self, n: int) -> np.ndarray:
-        """Amplitudes (4, n, n), of more functions or fewer."""
+        """Amplitudes (4, n, n) for more functions or fewer."""
         every, both = np.zeros((4, n, n)), min(n, self.equations.n)
         every[:, :both, :both] = self.equations.amplitudes(self.q)[:, :both, :both]
         return every
@@ -108,17 +108,17 @@ class SpectralState(NamedTuple):
 
     @property
     def Nu(self) -> float:
-        """Heat that passes upwards, on average over the volume, over what conduction alone would carry."""
+        """Nusselt number: upward heat flux, averaged over the volume, over that of conduction alone."""
         up = self.equations.terms(self.at)[T, 2]
         return float(np.average(up, weights=self.equations.weights)/self.equations.laws.units[2])
 
 
 def steady(laws: Any, n: int, start: SpectralState | None = None) -> SpectralState:
-    """The steady state on n waves and n polynomials that a start leads to, of any n and numbers of the laws;
-    by default warm streams that rise at x = 0 and wherever two rolls as wide as high have passed.
+    """Steady state with n waves and n polynomials, reached from `start`, of any n and any parameters; by
+    default from warm streams that rise at x = 0 and once per pair of rolls about as wide as high.
 
-    Implicit steps lengthen as rates fall and become Newton's: the state need not be stable. At rest below
-    onset. Raises ValueError: n. NewtonFailed: no convergence.
+    Implicit steps lengthen as rates fall and become Newton's: the state need not be stable. Below onset it is
+    at rest. Raises ValueError: n is out of range. NewtonFailed: no convergence.
     """
     every = start.on(n) if start else np.zeros((4, n, n))
     if not start:
@@ -128,22 +128,22 @@ def steady(laws: Any, n: int, start: SpectralState | None = None) -> SpectralSta
 
 
 def relaxed(equations: Galerkin, every: np.ndarray) -> SpectralState:
-    """The steady state that amplitudes (4, n, n) lead to."""
+    """Steady state reached from amplitudes (4, n, n)."""
     return SpectralState(equations, *newton(every[equations.kept], partial(step, equations),
                                             f"{equations.laws}, {equations.n} functions"))
 
 
 def step(equations: Galerkin, q: np.ndarray) -> np.ndarray:
-    """The change of q in an implicit step."""
+    """Change of q in an implicit step."""
     rates = equations.rates(q)
     return solve(equations.slopes(q, largest(rates)/RELAX), rates, overwrite_a=True)
 
 
 def onset(laws_at: Callable[[float], Any], n: int, low: float, high: float) -> float:
-    """The Ra, between two, at which a pair of rolls in the box neither grows nor decays: there the slopes of
-    the state at rest are singular, and what a push changes in the first rising stream changes its sign."""
+    """Ra between low and high at which a pair of rolls neither grows nor decays: there the Jacobian of the
+    state at rest is singular, and the response of the first rising stream to a force changes sign."""
     def stiffness(ra: float) -> float:
         slopes = Galerkin(laws_at(ra), n).slopes(np.zeros(4*n*n - n - 1))
-        stream = n*n        # place of the first stream that rises: after n (n - 1) of v_x and n of v_y
+        stream = n*n        # index of the first rising stream: after n (n - 1) of v_x and n of v_y
         return float(1/np.linalg.inv(slopes)[stream, stream])
     return float(brentq(stiffness, low, high, xtol=1e-9))

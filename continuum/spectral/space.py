@@ -1,8 +1,8 @@
-"""The gas of a layer in a periodic box in three dimensions, in time: a truth whose error falls exponentially.
+"""The gas of a layer in 3D, periodic along x and z, in time: a reference whose error falls exponentially.
 
-Values on n waves along x, n along z, n polynomials along y, which points upwards; slopes are products with
-matrices. The stress is that of the plane gas, eta (grad v + grad v^T - 1 div v), whose divergence is eta lap
-v: what is uniform along z moves as in the plane. In 3D that is a bulk viscosity of -eta/3.
+Collocation with n waves along x and z, n polynomials along y, which points upwards; slopes are products with
+matrices. The stress is that of the 2D gas, eta (grad v + grad v^T - 1 div v), whose divergence is eta lap v:
+a flow uniform along z moves as in 2D. In 3D this stress has a bulk viscosity of -eta/3.
 """
 from typing import Any
 
@@ -14,7 +14,7 @@ from continuum.sides import Periodic
 
 
 class GasInSpace:
-    """State (5, n^3): density, v_x, v_z, v_y, temperature at places (x, z, y) of a `RayleighBenard` scene."""
+    """Rates of states (5, n^3), density, v_x, v_z, v_y, temperature at (x, z, y), of a `RayleighBenard`."""
     names = ("rho", "vx", "vz", "vy", "T")
 
     def __init__(self, scene: Any, n: int):
@@ -29,19 +29,19 @@ class GasInSpace:
         self.V = (along[:, None, None]*along[:, None]*up).ravel()
 
     def state(self, rho: np.ndarray, v: np.ndarray, T: np.ndarray) -> np.ndarray:
-        """Of density (n^3,), velocity (n^3, 3), temperature."""
+        """State of density (n^3,), velocity (n^3, 3) and temperature (n^3,)."""
         return np.stack([rho, *v.T, T])
 
     def fields(self, state: np.ndarray) -> Fields:
         return Fields(self.x, state[1:4].T, state[0], state[4], self.V)
 
     def slopes(self, f: np.ndarray, D: Any) -> np.ndarray:
-        """D along each axis of fields (m, n, n, n): (3, m, n, n, n)."""
+        """Apply the matrices D along the axes of fields (m, n, n, n): (3, m, n, n, n)."""
         n = self.n
         return np.stack([(D[0]@f.reshape(-1, n, n*n)).reshape(f.shape), D[1]@f, f@D[2].T])
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
-        """d(state)/dt, written to `out`; plates keep v = 0 and their temperature."""
+        """Write d(state)/dt to `out`; on plates v and temperature do not change."""
         cube, (eta, k), cv = state.reshape(5, *[self.n]*3), self.scene.law, self.eos.cv
         rho, v, T, slope = cube[0], cube[1:4], cube[4], self.slopes(cube, self.D)
         grad, lap = slope[:, 1:4], self.slopes(cube[1:], self.D2).sum(axis=0)      # grad[a, b] = d_a v_b
@@ -55,20 +55,20 @@ class GasInSpace:
         rate[1:, ..., [0, -1]] = 0.0
 
     def heat_through(self, state: np.ndarray, plate: int) -> float:
-        """Heat per time that enters through plate 0 (lower) or 1."""
+        """Heat per time that enters through plate 0 (lower) or 1 (upper)."""
         slope = state[4].reshape([self.n]*3).mean(axis=(0, 1))@self.D[2].T
         return float(-self.scene.law.k*slope[-plate]*(1 - 2*plate))*self.scene.width**2
 
 
 def waves(n: int, width: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Places, slopes (n, n), weights of periodic functions."""
+    """Positions, derivative matrix (n, n) and weights for periodic functions."""
     x, k = (np.arange(n) + 0.5)/n*width - width/2, 2j*np.pi*np.fft.fftfreq(n, width/n)
     slopes = np.fft.ifft(k[:, None]*np.fft.fft(np.eye(n), axis=0), axis=0).real
     return x, slopes, np.full(n, width/n)
 
 
 def polynomials(n: int, height: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """The same of polynomials between plates, on Chebyshev's points, ends included."""
+    """The same for polynomials between plates, on Chebyshev's points with both ends."""
     y = -np.cos(np.pi*np.arange(n)/(n - 1))
     inverse = np.linalg.inv(chebyshev.chebvander(y, n - 1))
     slopes = chebyshev.chebval(y, chebyshev.chebder(np.eye(n))).T@inverse
