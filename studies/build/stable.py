@@ -47,7 +47,7 @@ class Blended(Scheme):
 
 
 class Around(NamedTuple):
-    """Jittered points around an insulated disc of radius `scene.disc`, in a periodic box. Triangles end at the
+    """Jittered points around an insulated disc of radius `scene.disc`, in a periodic box. Triangles end at
     points on its rim. flux : entropy-stable."""
     name: str
     flux: bool = False
