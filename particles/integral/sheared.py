@@ -45,7 +45,7 @@ def sides(points: Points, edges: Edges) -> tuple[Stored, Through]:
     inside = replace(edges, **{name: getattr(edges, name)[up == 0] for name in parts})
     i, j, S, k, apart = (getattr(edges, name)[up != 0] for name in parts)
     twice, up = np.concatenate, up[up != 0]
-    # in both directions, and to both images
+    # each edge in both directions, to both images
     beyond = Beyond(i=twice([i, j, i, j]), parent=twice([j, i, j, i]), S=twice([S, -S, S, -S]),
                     k=np.tile(k, 4), apart=twice([apart, -apart]*2), plate=twice([up, -up]*2))
     made = stored(inside, beyond, points.n + np.arange(4*len(i)))
@@ -67,7 +67,7 @@ class Boosted(NamedTuple):
     boost: np.ndarray
 
     def fill(self, records: np.ndarray, even: tuple[str, ...], odd: tuple[str, ...] = ()) -> None:
-        """What does not change with the speed of the box."""
+        """Copy fields that do not depend on the speed of the box."""
         first = len(records) - len(self.parent)
         for name in (*even, *odd):
             records[name][first:] = records[name][self.parent]
@@ -81,7 +81,7 @@ class Boosted(NamedTuple):
         images["ux"] += U
 
     def fill_work(self, points: np.ndarray, slopes: np.ndarray, V: np.ndarray) -> None:
-        """The work F of images, which have the gradients of their parents and another velocity."""
+        """Work F of images: their gradients are those of their parents, their velocities are not."""
         self.fill(points, ("Fx", "Fy"))
         images, f = points[len(V):], (points["eta"][:len(V)]/V)[self.parent]*self.boost
         images["Fx"] -= f*slopes[self.parent, 3]
@@ -103,7 +103,7 @@ class Shearing(FixedSums):
         out[4] = self.method.speed
 
     def surround(self, state: np.ndarray) -> None:
-        """Let the images above have slid, to which edges lead in other shares."""
+        """Slide the images above: edges through the sides get other shares and lead to other images."""
         edges, (_, through), (columns, rows) = self.at.edges, self.method.sides, self.method.counts
         theta, whole = np.modf(state[4, 0]/self.method.points.a % columns)
         share = np.where(through.second, theta, 1 - theta)

@@ -34,7 +34,7 @@ def around(points: Points, body: np.ndarray) -> Edges:
 
 def outside(corner: np.ndarray, body: np.ndarray) -> np.ndarray:
     """Which triangles (T, 3) are outside a convex body: not all of their corners are on it, (T,)."""
-    return ~np.isin(corner, body).all(axis=1)
+    return np.logical_not(np.isin(corner, body).all(axis=1))
 
 
 def between(x: np.ndarray, width: float, height: float, closed: tuple[bool, bool] = (False, True)) -> Edges:
