@@ -59,11 +59,11 @@ class Drift:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Rows of a state: places, momentum, mass, energy, per volume or (constant mass) of a point; volumes."""
+        """Rows of a state: places; momentum, mass, energy per volume or of a point; volumes."""
         return ("x", "y", "px", "py", *(("m", "E") if self.keeps_mass else ("rho", "eps")), "V")
 
     def owned(self, V: np.ndarray) -> np.ndarray:
-        """Volumes (n,) by which m, p, E of a state are divided to give densities: 1 if they are densities."""
+        """Volumes (n,) over which m, p, E of a state are taken: 1 if they are densities."""
         return V if self.keeps_mass else np.ones_like(V)
 
     def state(self, x: np.ndarray, rho: Any, v: np.ndarray, T: np.ndarray) -> np.ndarray:
@@ -115,7 +115,7 @@ class Drifts(Listed):
         self.exchange = Exchange(OverPairs(Drifting(method.motion, listed(terms))), needed, n, threads)
 
     def look_over(self, state: np.ndarray, ids: np.ndarray) -> None:
-        """Check the start: ValueError if points coincide, a warning if the weight is too narrow    [Eq. 45]"""
+        """Check the start: ValueError if points coincide, warning if the weight is narrow    [Eq. 45]"""
         a = float(np.sqrt(state[6].mean()))
         self.around.place(state, self.method.scale)
         check_apart(self.around, ids, a)
@@ -123,13 +123,13 @@ class Drifts(Listed):
         check_ordering(self.method.weight, 2, a, float(np.sqrt((off**2).sum(axis=(1, 2)).mean()/2)))
 
     def make_ready(self, now: Any, dt: float) -> None:
-        """Make new lists if points may leave the old ones. Rows 2, 3 are momenta: dt is scaled by speed/momentum."""
+        """Make new lists if needed. Rows 2, 3 are momenta: dt is scaled by speed/momentum."""
         momentum = fastest(now.state)
         speed = np.sqrt(((now.state[2]**2 + now.state[3]**2)/now.state[4]**2).max())
         super().make_ready(now, dt*float(speed)/momentum if momentum else dt)
 
     def look_at(self, state: np.ndarray) -> At:
-        """Prepare the exchange: pairs at the present places, fields of points and images, stages such as F."""
+        """Prepare the exchange: pairs where points are now, fields of points and images, stages."""
         method, around, n = self.method, self.around, self.n
         around.place(state, method.scale)
         if self._lists != around.lists_made:
@@ -179,7 +179,7 @@ def _image_fields(n, origin, turn, plate_T, x, y, static, g, points):
 
 @jit
 def _rates(first, last, total, owned, points, static, g, out):
-    """Rates from the sums over pairs, gravity, and force and work of the static pressure that pairs leave out."""
+    """Rates from sums over pairs, gravity, and the static pressure that pairs leave out."""
     for i in range(first, last):
         a = points[i]
         mass, px, py, through, volume = total[i]
