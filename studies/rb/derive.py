@@ -19,7 +19,7 @@ CORRECTED = ("sumB", "corrected", "CRKSPH", "MFM", "MFM-adiabatic")     # that m
 SERIES = [name for name in POINT if name != "resolution"]
 ENERGIES = ["ke", "ke_field", "ke_mean", "nu"]
 HALF = "-half-step"
-#: the finest over the coarsest size from which a limit of points takes 1/rows^3 besides: 80 and 25 rows. Both
+#: ratio of finest to coarsest size above which a limit of points fits 1/rows^3, too: that of 80 and 25. Both
 #: were set after a look: at 12 to 40 rows of moving points, then at lattices at rest, whose K has that power
 COARSEST = 3.2
 SAME_PATTERN = 0.1     # of the weaker over the stronger wave

@@ -114,10 +114,10 @@ def errors_of(tables: Tables, point: Point, ours: Fields, theirs: Fields) -> dic
 
 
 def difference(one: Fields, other: Fields, names: Sequence[str], at: slice) -> Measured:
-    """Root mean square of one - other over places, in some rows of them, summed over the named fields.
+    """Root mean square of the mirror-symmetric part of one - other, over some rows, summed over named fields.
 
-    Both flows are symmetric in the mirror; what is not symmetric in the difference is noise, and as much of
-    it is in the symmetric part: that is the error.
+    Both flows are symmetric in the mirror: the other part of the difference is noise, of which the symmetric
+    part holds as much. It is the error.
     """
     apart = {name: one[name] - other[name] for name in one}
     image = mirrored(apart)

@@ -90,7 +90,7 @@ def stiffness(eos: Any) -> float:
 
 
 def imbalance(eos: Any) -> float:
-    """Largest |P(y) + rho g y - P(0)| over P(0) in the motionless state."""
+    """Range of P(y) + rho g y over its mean, for the conduction profile at density 1."""
     scene = RayleighBenard(ra=1e4, eos=eos)
     y = np.linspace(-0.5, 0.5, 101)*scene.L
     total = pressure(eos, 1.0, scene.e(y)) + scene.g*y
