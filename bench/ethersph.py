@@ -8,8 +8,8 @@ Weakly compressible smooth particles: Wendland C2 of range 3 spacings, density b
 its own at each Ra; a force that keeps particles off walls; Shepard's filter of the density every 30 steps.
 `heat` is what the hot and the cold side exchange with the fluid, over conduction; `read` is Nu as the code
 reads it: the slope between the first two columns of a lattice on which temperatures are smoothed. Both are
-means over the last fifth of the run. Half lengths of intervals: 1.96 times the scatter of its tenths over
-sqrt(10). Writes results/bench/ethersph.csv; takes half a minute a run with 50 rows, five with 100.
+means of ten samples in the last fifth of the run. Half widths of intervals: 2.26 = t(9) times their scatter
+over sqrt(10). Writes results/bench/ethersph.csv; takes half a minute a run with 50 rows, five with 100.
 
 Source: github.com/EtherSPH/EtherSPH.jl, commit 29ebcf01, src/SPH/Library/*.jl and
 example/natural_convection_cavity; the post-processing in natural_convection_cavity.py, commit 1c5b8f4e.
