@@ -27,7 +27,7 @@ def dots(number: int, size: float = 2) -> dict[str, Any]:
 
 
 CASES = (*LAYERS, *BOXES, *PROBES, *(f"shock tube eta {eta:g}" for eta in ETAS), *COLUMNS)
-MANY = 3                # least number of a method's cases, and of a case's methods, that the map shows
+MANY, PAIR = 3, 2       # least number of a method's cases, and of a case's methods, that the map shows
 LISTED = "entropy-stable"  # ends the names of methods with the entropy-stable flux
 #: limits of error/tolerance between the shades, of which the last is for runs that ended early
 LEVELS, SHADES = (1.0, 5.0, 1e9), ListedColormap(["#DEEBF7", "#F5C26B", "#D55E00", "#3B0F4F"])
@@ -61,7 +61,7 @@ def chart(rows: pd.DataFrame) -> Figure:
     rows = judged(rows).sort_values(["shade", "error"], na_position="first")
     rows = rows.drop_duplicates(["case", "method"], keep="last")
     rows = rows[rows.groupby("method").case.transform("nunique") >= MANY]
-    rows = rows[rows.groupby("case").method.transform("nunique") >= MANY]
+    rows = rows[rows.groupby("case").method.transform("nunique") >= PAIR]
     methods = sorted(set(rows.method), key=lambda name: (name.endswith(LISTED), *place_of(name)))
     cases = [case for case in CASES if case in set(rows.case)]
     shades = rows.pivot(index="case", columns="method", values="shade").loc[cases, methods]
