@@ -1,1 +1,1 @@
-"""What is known in closed form."""
+"""Exact and spectral reference solutions."""

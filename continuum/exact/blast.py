@@ -1,6 +1,7 @@
-"""A point's explosion in a cold gas of even density, in d dimensions    [Sedov 1959; Kamm & Timmes 2007]
+"""Point explosion in a cold gas of uniform density, in d dimensions    [Sedov 1959; Kamm & Timmes 2007]
 
-Behind the shock at R = (E t^2/(alpha rho))^(1/(d + 2)), of speed D, v = D f, rho g, P = rho D^2 h of x = r/R.
+The shock is at R = (E t^2/(alpha rho))^(1/(d + 2)) and has speed D. Behind it, as functions of x = r/R,
+velocity is D f, density rho g, pressure rho D^2 h.
 """
 from functools import cache
 from math import gamma as factorial
@@ -10,17 +11,17 @@ from typing import NamedTuple
 import numpy as np
 from scipy.integrate import solve_ivp
 
-CENTRE = 1e-3       # what is left further inwards is a millionth of the energy
+CENTRE = 1e-3       # lower end of the integration over x; less than a millionth of the energy is inside
 
 
 class Blast(NamedTuple):
-    """E t^2/(rho R^(d + 2)), and the mean radius of the energy over R."""
+    """alpha = E t^2/(rho R^(d + 2)), and the mean radius of the energy over R."""
     alpha: float
     radius: float
 
 
 def slopes(x: float, q: np.ndarray, gamma: float, d: int) -> np.ndarray:
-    """d/dx of f, g, h and of the energy and its first moment, over |S| rho D^2 R^d.
+    """d/dx of f, g, h, of the energy and of its first moment, both over |S| rho D^2 R^d.
 
     (f - x) g' + g f' = -(d - 1) f g/x,   (f - x) f' + h'/g = d f/2,   (f - x)(h'/h - gamma g'/g) = d
     """
@@ -33,7 +34,7 @@ def slopes(x: float, q: np.ndarray, gamma: float, d: int) -> np.ndarray:
 
 @cache
 def blast(gamma: float, d: int = 2) -> Blast:
-    """From a strong shock inwards. Raises ValueError: gamma is not that of a gas between 1 and 2."""
+    """Integrate inwards from a strong shock. Raises ValueError: gamma is not above 1 and at most 2."""
     if not 1 < gamma <= 2:
         raise ValueError(f"gamma must lie above 1 and up to 2, got {gamma}: take 1 + 1/cv of the gas")
     strong = [2/(gamma + 1), (gamma + 1)/(gamma - 1), 2/(gamma + 1), 0, 0]

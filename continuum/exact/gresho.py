@@ -1,25 +1,25 @@
-"""A round vortex of even density that its pressure holds together, in boxes    [Gresho & Chan 1990]
+"""Round vortex of uniform density, held together by its pressure; lengths in boxes    [Gresho & Chan 1990]
 
-Velocities 5 r, then 2 - 5 r from r = 0.2 to 0.4, over the largest. With friction nu they diffuse, but for
-the square of the Mach number: round flows of a fluid without compression do nothing else.
+The velocity over its largest value is 5 r up to r = 0.2, then 2 - 5 r up to 0.4. With a viscosity nu it
+diffuses, to the order of the Mach number squared, as round incompressible flows do.
 """
 from functools import cache
 
 import numpy as np
 from scipy.ndimage import map_coordinates
 
-FINE = 512          # places along a box, of which 18 are as long as friction reaches at nu t = 6e-4
+FINE = 512          # grid points along the box; 18 of them span the diffusion length at nu t = 6e-4
 
 
 def velocity(place: np.ndarray) -> np.ndarray:
-    """(n, 2) at places (n, 2)."""
+    """Velocities (n, 2) at the start, at places (n, 2)."""
     r = np.hypot(*place.T)
     swirl = np.maximum(np.minimum(5*r, 2 - 5*r), 0)/np.maximum(r, 1e-12)
     return np.stack([-swirl*place[:, 1], swirl*place[:, 0]], axis=1)
 
 
 def pressure(place: np.ndarray) -> np.ndarray:
-    """(n,) over density and the square of the largest velocity, 0 outside."""
+    """Pressure (n,) over density and largest velocity squared, 0 outside the vortex."""
     r = np.hypot(*place.T)
     outer = np.clip(r, 0.2, 0.4)
     inner = np.minimum(r, 0.2)**2 + outer**2 - 0.04
@@ -28,7 +28,7 @@ def pressure(place: np.ndarray) -> np.ndarray:
 
 @cache
 def diffused(spread: float) -> np.ndarray:
-    """Velocities (2, FINE, FINE) at nu t = spread, in a periodic box."""
+    """Velocities (2, FINE, FINE) after diffusion with nu t = spread, in a periodic box."""
     axis = np.arange(FINE)/FINE - 0.5
     v = velocity(np.stack(np.meshgrid(axis, axis, indexing="ij"), axis=-1).reshape(-1, 2))
     k = 2*np.pi*FINE*np.fft.fftfreq(FINE)
@@ -37,6 +37,6 @@ def diffused(spread: float) -> np.ndarray:
 
 
 def velocity_at(spread: float, place: np.ndarray) -> np.ndarray:
-    """(n, 2) at places (n, 2), by splines."""
+    """Velocities (n, 2) at nu t = spread, at places (n, 2), interpolated by cubic splines."""
     at = (place + 0.5).T*FINE
     return np.stack([map_coordinates(part, at, mode="grid-wrap") for part in diffused(spread)], axis=1)

@@ -1,7 +1,7 @@
-"""A gas in a square periodic box by Fourier sums, as in `vortex`, from any smooth start, k and eta apart.
+"""Gas in a square periodic box by Fourier sums, from any smooth start; k may differ from eta.
 
-Where friction is weak the shortest waves feed on products of others: each step takes them away, by
-exp(-36 (m/m_max)^16) of wave m    [Hou & Li 2007]
+The equations are those of `vortex`. Where viscosity is small, products of waves would pile up in the shortest
+ones: each step multiplies wave m by exp(-36 (m/m_max)^16)    [Hou & Li 2007]
 
 Lengths are in boxes: a start takes places (m, 2) from -1/2 to 1/2 and gives rho (m,), v (m, 2), T (m,).
 """
@@ -13,7 +13,7 @@ import numpy as np
 
 from continuum.exact.vortex import ODD, derivative, longest_step, rates, waves
 
-OF_LIMIT = 0.9      # of the longest stable step: what a run resolves is far longer than its shortest wave
+OF_LIMIT = 0.9      # of the longest stable step: waves that matter are far longer than the shortest one
 Start = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray, np.ndarray]]
 
 
@@ -39,12 +39,12 @@ def solved(start: Start, eta: float, k: float, time: float, n: int = ODD) -> np.
 
 
 def kept(n: int) -> np.ndarray:
-    """What a step leaves of waves m = -(n - 1)/2 ... (n - 1)/2."""
+    """Factor by which a step multiplies waves m = -(n - 1)/2 ... (n - 1)/2, (n,)."""
     return np.exp(-36*np.linspace(-1, 1, n)**16)
 
 
 def slopes(state: np.ndarray, eta: float, k: float, D: np.ndarray) -> np.ndarray:
-    """d(state)/dt, (4, n, n); `rates` conducts as much as it rubs."""
+    """d(state)/dt, (4, n, n): `rates`, where k = eta, and the conduction by k - eta."""
     out = rates(state, eta, D)
     if k != eta:
         rho = state[0]

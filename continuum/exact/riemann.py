@@ -14,7 +14,7 @@ class GasState(NamedTuple):
 
 
 class Middle(NamedTuple):
-    """Between the waves: velocity and pressure, densities left and right of the contact."""
+    """Velocity and pressure between both waves; densities left and right of the contact."""
     v: float
     P: float
     left: float
@@ -22,7 +22,7 @@ class Middle(NamedTuple):
 
 
 def jump(gas: GasState, P: float, gamma: float) -> float:
-    """How much faster than `gas` what has passed its wave moves away from it, at pressure P."""
+    """Change of velocity across the wave that takes `gas` to pressure P, towards the gas ahead of it."""
     c = sqrt(gamma*gas.P/gas.rho)
     if P > gas.P:
         return (P - gas.P)/sqrt(gas.rho*((gamma + 1)*P + (gamma - 1)*gas.P)/2)
@@ -30,13 +30,13 @@ def jump(gas: GasState, P: float, gamma: float) -> float:
 
 
 def density(gas: GasState, P: float, gamma: float) -> float:
-    """Behind the wave: Hugoniot's for a shock, the isentrope's for a rarefaction."""
+    """Density behind the wave: on the Hugoniot curve for a shock, on the isentrope for a rarefaction."""
     ratio, g = P/gas.P, (gamma - 1)/(gamma + 1)
     return gas.rho*((ratio + g)/(g*ratio + 1) if P > gas.P else ratio**(1/gamma))
 
 
 def middle(left: GasState, right: GasState, gamma: float) -> Middle:
-    """The state between both waves. Raises ValueError: the gases part so fast that a vacuum opens."""
+    """State between both waves. Raises ValueError: the gases part so fast that a vacuum opens."""
     def gap(P: float) -> float:
         return jump(left, P, gamma) + jump(right, P, gamma) + right.v - left.v
     if gap(0.0) >= 0:
@@ -47,12 +47,12 @@ def middle(left: GasState, right: GasState, gamma: float) -> Middle:
 
 
 def shock_speed(gas: GasState, P: float, gamma: float) -> float:
-    """Of a shock that raises the pressure to P, relative to the gas before it."""
+    """Speed of a shock that raises the pressure to P, relative to the gas ahead of it."""
     return sqrt(((gamma + 1)*P/gas.P + gamma - 1)*gas.P/(2*gas.rho))
 
 
 def solution(left: GasState, right: GasState, gamma: float, s: np.ndarray) -> np.ndarray:
-    """(3, n): rho, v, P at places x/t = s."""
+    """(rho, v, P) at places x/t = s (n,), (3, n)."""
     between = middle(left, right, gamma)
     mirror = [side(GasState(right.rho, -right.v, right.P),
                    Middle(-between.v, between.P, between.right, between.left), gamma, -s)]
@@ -61,7 +61,7 @@ def solution(left: GasState, right: GasState, gamma: float, s: np.ndarray) -> np
 
 
 def side(gas: GasState, between: Middle, gamma: float, s: np.ndarray) -> np.ndarray:
-    """(3, n): what is left of the contact."""
+    """(rho, v, P) at places x/t = s left of the contact, (3, n)."""
     there, c = np.array([[between.left], [between.v], [between.P]]), sqrt(gamma*gas.P/gas.rho)
     if between.P > gas.P:
         return np.where(s < gas.v - shock_speed(gas, between.P, gamma), np.array(gas)[:, None], there)

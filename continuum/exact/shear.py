@@ -1,20 +1,20 @@
-"""Shear flows: from rest between plates, as series, heights y/H, times in H^2/nu; waves of a periodic one."""
+"""Shear flows: start-up between plates as Fourier series; waves on a periodic one."""
 import numpy as np
 from scipy.integrate import solve_ivp
 
-HARMONICS = 20      # on either side: the growth rate is good to 1e-9
-TERMS = 60          # the next one is exp(-60^2 pi^2 0.02) = 1e-308 at t = 0.02
+HARMONICS = 20      # of either sign: the error of the growth rate is 1e-9
+TERMS = 60          # of a series; the next one is exp(-60^2 pi^2 0.02) = 1e-308 at t = 0.02
 
 
 def couette(y: np.ndarray, time: float) -> np.ndarray:
-    """u over the speed of the upper plate."""
+    """u (n,) at heights y/H over the speed of the upper plate, time in H^2/nu."""
     n = np.arange(1, TERMS + 1)
     waves = 2/(n*np.pi)*(-1.0)**n*np.exp(-(n*np.pi)**2*time)*np.sin(np.pi*n*y[:, None])
     return y + waves.sum(axis=1)
 
 
 def poiseuille(y: np.ndarray, time: float) -> np.ndarray:
-    """u over its final value in the middle, force H^2/(8 nu)."""
+    """u (n,) at heights y/H over its final value in the middle, force H^2/(8 nu), time in H^2/nu."""
     n = np.arange(1, TERMS + 1, 2)
     waves = 32/(n*np.pi)**3*np.exp(-(n*np.pi)**2*time)*np.sin(np.pi*n*y[:, None])
     return 4*y*(1 - y) - waves.sum(axis=1)
@@ -39,7 +39,7 @@ def growing_wave(U: float, k: float, kx: float) -> tuple[float, np.ndarray]:
 
 
 def layer_with_wave(x: np.ndarray, U: float, k: float, size: float) -> np.ndarray:
-    """Velocities (n, 2) at places (n, 2): U sin ky and its fastest wave of k_x = k/2, of size times U."""
+    """Velocities (n, 2) at places (n, 2): U sin ky plus its growing wave of k_x = k/2, amplitude size U."""
     kx, (_, psi) = k/2, growing_wave(U, k, k/2)
     psi = psi*size*U/(kx*abs(psi[HARMONICS]))
     n = np.arange(-HARMONICS, HARMONICS + 1)[:, None]
@@ -49,9 +49,9 @@ def layer_with_wave(x: np.ndarray, U: float, k: float, size: float) -> np.ndarra
 
 
 def viscous_growth(U: float, k: float, kx: float, nu: float, time: float) -> float:
-    """How many times as large the wave of `growing_wave` is after a time, u = U sin ky exp(-nu k^2 t).
+    """Factor by which the wave of `growing_wave` grows in a time, on u = U sin ky exp(-nu k^2 t).
 
-    Small waves of the decaying layer: U(t) in the rates of `growing_wave`, less nu K_n^2 q_n.
+    The rates are those of `growing_wave` with U(t), minus nu K_n^2 q_n.
     """
     n = np.arange(-HARMONICS, HARMONICS + 1)
     K2 = kx**2 + (n*k)**2

@@ -1,11 +1,11 @@
-"""A Taylor-Green vortex that decays: incompressible in closed form, as a gas by Fourier sums.
+"""Decaying Taylor-Green vortex of a gas, by Fourier sums.
 
     rho' = -div(rho v)        p' = -div(v p) - grad P + eta lap v
     e' = -div((e + P) v) + eta [lap |v|^2/2 + div((v.grad) v - v div v)] + k lap T
 
-with P = rho T, C_V = 1, k = eta, in 2D without bulk viscosity. One wavelength to the periodic box, lengths in
-spacings of the points that the vortex is put on. Products of two fields are differentiated as
-a grad b + b grad a, which keeps their sums.
+with P = rho T, C_V = 1, k = eta, in 2D without bulk viscosity. The periodic box is one wavelength wide;
+lengths are in spacings of the points that sample the vortex. Products of two fields are differentiated as
+a grad b + b grad a, which conserves sums.
 """
 from functools import cache
 from math import ceil
@@ -13,16 +13,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-RE = 100.0          # several turns while they decay: pressure and convection matter, not friction alone
-SOUND = np.sqrt(2)  # speed, of the gas at T = 1 in 2D
-DECAYS = 1.0        # 2 nu k^2 t at the end: velocities are a factor e smaller
-#: points of the Fourier sums along each axis: odd, or the shortest wave goes unseen; 25 are too few
+RE = 100.0          # the vortex turns several times as it decays: pressure and convection matter
+SOUND = np.sqrt(2)  # speed of sound of the gas at T = 1 in 2D
+DECAYS = 1.0        # 2 nu k^2 t at the end, where velocities are a factor e smaller
+#: grid points along each axis: odd, so that the shortest wave has a derivative; 25 are too few
 ODD, COARSER = 33, 29
 OF_LIMIT = 0.5      # of the longest stable step
 
 
 class Vortex(NamedTuple):
-    """A vortex of a Mach number in a box of `wavelength` spacings; Re = speed wavelength/nu."""
+    """Vortex of a Mach number in a box of `wavelength` spacings; RE = speed wavelength/nu."""
     mach: float
     wavelength: int
 
@@ -43,19 +43,19 @@ class Vortex(NamedTuple):
         return DECAYS/(2*self.eta*self.k**2)
 
     def velocity(self, x: np.ndarray) -> np.ndarray:
-        """(n, 2) at places (n, 2) at the start."""
+        """Velocities (n, 2) at places (n, 2) at the start."""
         a, b = self.k*x.T
         return self.speed*np.stack([np.sin(a)*np.cos(b), -np.cos(a)*np.sin(b)], axis=1)
 
     def density(self, x: np.ndarray) -> np.ndarray:
-        """(n,) at the start: the incompressible pressure at constant entropy, P = rho^2, T = rho."""
+        """Densities (n,) at the start, with the incompressible pressure at constant entropy, P = rho^2."""
         return np.sqrt(1 + self.speed**2/4*np.cos(2*self.k*x).sum(axis=1))
 
 
 class Solved(NamedTuple):
     """Fourier amplitudes (n, n, 2) of the velocity at the end over the initial speed.
 
-    decay : ln(K at the start/K at the end) over what friction alone makes of it.
+    decay : ln(K at the start/K at the end) over its value in incompressible flow.
     """
     amplitudes: np.ndarray
     decay: float
@@ -63,7 +63,7 @@ class Solved(NamedTuple):
 
 @cache
 def solved(mach: float, n: int = ODD) -> Solved:
-    """The gas of a Mach number on n x n points, n odd, by RK4."""
+    """Solution for a gas of a Mach number on n x n points, n odd, by RK4."""
     vortex = Vortex(mach, n)
     axis = np.arange(n) - (n - 1)/2
     x = np.stack(np.meshgrid(axis, axis, indexing="ij"), axis=-1).reshape(-1, 2)
@@ -79,14 +79,14 @@ def solved(mach: float, n: int = ODD) -> Solved:
 
 
 def derivative(n: int) -> np.ndarray:
-    """The matrix (n, n) of the derivative of Fourier series on n points of unit spacing, n odd."""
+    """Matrix (n, n) of the derivative of a Fourier series on n points of unit spacing, n odd."""
     far = np.subtract.outer(np.arange(n), np.arange(n))
     away = np.where(far == 0, 1, far)
     return np.where(far == 0, 0.0, np.pi/n*(-1.0)**far/np.sin(np.pi*away/n))
 
 
 def advanced(state: np.ndarray, vortex: Vortex, D: np.ndarray) -> np.ndarray:
-    """The state (4, n, n) of rho, p, e at the vortex's time."""
+    """State (4, n, n) of rho, p, e per volume at the vortex's time of the end."""
     steps = ceil(vortex.time/(OF_LIMIT*longest_step(state, vortex.eta)))
     dt = vortex.time/steps
     for _ in range(steps):
@@ -98,7 +98,7 @@ def advanced(state: np.ndarray, vortex: Vortex, D: np.ndarray) -> np.ndarray:
 
 
 def longest_step(state: np.ndarray, eta: float) -> float:
-    """Of RK4: the fastest sound and the fastest diffusion of the shortest wave."""
+    """Longest stable step of RK4, from the fastest sound and diffusion of the shortest wave."""
     rho, v = state[0], state[1:3]/state[0]
     speed = np.sqrt((v**2).sum(axis=0))
     T = state[3]/rho - speed**2/2
@@ -109,7 +109,7 @@ def longest_step(state: np.ndarray, eta: float) -> float:
 
 
 def rates(state: np.ndarray, eta: float, D: np.ndarray) -> np.ndarray:
-    """d(state)/dt, (4, n, n)."""
+    """d(state)/dt, (4, n, n), of the equations above."""
     rho, p, v = state[0], state[1:3], state[1:3]/state[0]
     T = state[3]/rho - (v**2).sum(axis=0)/2
 
@@ -139,7 +139,7 @@ def waves(place: np.ndarray, n: int) -> np.ndarray:
 
 
 def velocities(gas: Solved, place: np.ndarray) -> np.ndarray:
-    """(p, 2) at the end over the initial speed, at places (p, 2) in wavelengths."""
+    """Velocities (p, 2) at the end over the initial speed, at places (p, 2) in wavelengths."""
     n = len(gas.amplitudes)
     x, y = (waves(axis, n) for axis in place.T)
     return np.einsum("pk,pl,kla->pa", x, y, gas.amplitudes, optimize=True).real
