@@ -1,1 +1,1 @@
-"""Speed, beside public codes, in one run."""
+"""Measurements of speed, beside public codes in the same run."""

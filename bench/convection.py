@@ -1,4 +1,4 @@
-"""Production as it is timed: KHP95's gas at Ra = 10 000, in the time loop of `particles.run`."""
+"""The run that benchmarks time: KHP95's gas at Ra = 10 000, in the time loop of `particles.run`."""
 import math
 import time
 from collections.abc import Callable
@@ -29,8 +29,7 @@ def method(particles: int) -> Spam:
 def lattice(box: tuple[float, float]) -> np.ndarray:
     """State (5, n) on a jittered square lattice with rolls of twice the energy of steady convection.
 
-    What the first turnover leaves of it moves as steady convection does: its fastest particle has 0.20 to
-    0.26.
+    After the first turnover it moves as steady convection does: the fastest particle has 0.20 to 0.26.
     """
     width, height = box
     scene, rng = RayleighBenard(ra=10_000, L=height), np.random.default_rng(1)
@@ -42,7 +41,7 @@ def lattice(box: tuple[float, float]) -> np.ndarray:
 
 @cache
 def melted(particles: int, steps: int = 10*BLOCK) -> np.ndarray:
-    """The lattice after so many steps: disordered, in the cell order of production."""
+    """The lattice after some steps: disordered, with particles in the order of cells, as in any run."""
     case = method(particles)
     return run(case, lattice(case.box), Plan(dt=DT, steps=steps, every=steps)).state
 
@@ -50,7 +49,7 @@ def melted(particles: int, steps: int = 10*BLOCK) -> np.ndarray:
 def block_seconds(particles: int, blocks: int, *, threads: int = 1,
                   clock: Callable[[], float] = time.process_time,
                   between: Callable[[], None] = lambda: None) -> list[float]:
-    """Seconds of each of so many blocks of production; `between` is called after each and does not count."""
+    """Seconds of each block of BLOCK steps; `between` is called after each block, untimed."""
     seconds: list[float] = []
     began = math.nan
 
@@ -67,5 +66,5 @@ def block_seconds(particles: int, blocks: int, *, threads: int = 1,
 
 
 def per_evaluation(seconds: float, particles: int) -> float:
-    """Nanoseconds per particle and evaluation of a block."""
+    """Nanoseconds per particle and evaluation, from the seconds of a block."""
     return 1e9*seconds/(BLOCK*EVALUATIONS*particles)

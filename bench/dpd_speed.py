@@ -2,9 +2,9 @@
 
     python -m bench.dpd_speed [--no-lammps]
 
-rho = 3, 24 000 particles, one core, CPU time; each with the skin that makes it fastest, block by block in
-turns. Ours computes every pair twice, LAMMPS (`pair dpd`, newton on) once, with a stream of random numbers
-that depends on the order of its pairs. Rows are medians and quartiles over the blocks. Writes
+rho = 3, 24 000 particles, one core, CPU time. Both codes take the skin of the lists that makes them fastest,
+and take turns block by block. Ours computes every pair twice, LAMMPS (`pair dpd`, newton on) once, with
+random numbers that depend on the order of its pairs. Rows are medians and quartiles over the blocks. Writes
 results/bench/dpd_speed.csv; takes two minutes, on a quiet machine.
 """
 import argparse
@@ -49,13 +49,13 @@ run 40"""
 
 
 def melted() -> np.ndarray:
-    """The fluid after it has forgotten where it started."""
+    """State (9, n) of the fluid after enough steps to forget its start."""
     return run(FLUID, FLUID.random_start(RHO), Plan(dt=DT, steps=10*BLOCK)).by_id()
 
 
 def ours(state: np.ndarray, skin: float, blocks: int,
          between: Callable[[], None] = lambda: None) -> np.ndarray:
-    """Nanoseconds a particle and step, block by block; `between` is called after each, untimed."""
+    """Nanoseconds per particle and step, of each block; `between` is called after each block, untimed."""
     seconds: list[float] = []
     began = math.nan
 
@@ -84,7 +84,7 @@ class Lammps:
                                                     skin=skin, dt=DT))
 
     def ns(self) -> float:
-        """Nanoseconds a particle and step of a block, from the particles that were given."""
+        """Nanoseconds per particle and step of a block that starts from the given particles."""
         for name, values in (("x", self._x), ("v", self._v)):
             self._lammps.scatter_atoms(name, 1, 3, as_doubles(values))
         self._lammps.command("run 1 pre no post no")     # makes lists
@@ -107,7 +107,7 @@ def fastest(state: np.ndarray) -> Lammps:
 
 
 def measure(blocks: int, lammps: bool) -> list[dict]:
-    """All rows."""
+    """Rows of the table, measured over so many blocks."""
     state = melted()
     n, skin = state.shape[1], min(SKINS, key=lambda skin: min(ours(state, skin, 4)))
     rows = [value_row("dpd skin", n, 1, skin, "rc")]
@@ -122,7 +122,7 @@ def measure(blocks: int, lammps: bool) -> list[dict]:
 
 
 def main() -> None:
-    """Measure and write."""
+    """Measure, print, and write the table."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--no-lammps", action="store_true", help="leave LAMMPS out")
     words = parser.parse_args()

@@ -3,12 +3,12 @@
     python -m bench.ethersph [--rows 50 100] [--ra 1e3 1e6] [--factor 1] [--until 30]
 
 Weakly compressible smooth particles: Wendland C2 of range 3 spacings, density by continuity, P = c^2 (rho -
-1) + 0.02 c^2, a pair's pressure 1 % stronger where it is near, Morris' friction, Brookshaw's heat, both with
-0.01 h^2 under the line; three rows of wall particles at rest whose conductivity is multiplied by a factor of
-its own at each Ra; a force that keeps particles off walls; Shepard's filter of the density every 30 steps.
-`heat` is what the hot and the cold side exchange with the fluid, over conduction; `read` is Nu as the code
-reads it: the slope between the first two columns of a lattice on which temperatures are smoothed. Both are
-means of ten samples in the last fifth of the run. Half widths of intervals: 2.26 = t(9) times their scatter
+1) + 0.02 c^2, an artificial pressure of 1 % between near particles, Morris' friction, Brookshaw's heat, both
+with 0.01 h^2 in the denominator; three rows of wall particles at rest, whose conductivity has a factor that
+depends on Ra; a force that keeps particles off walls; Shepard's filter of the density every 30 steps.
+`heat` is the heat that both heated sides exchange with the fluid, over conduction. `read` is Nu as the code
+computes it: the slope between the first two columns of a lattice of smoothed temperatures. Both are means of
+ten samples in the last fifth of the run; half widths of their intervals are 2.26 = t(9) times the scatter
 over sqrt(10). Writes results/bench/ethersph.csv; takes half a minute a run with 50 rows, five with 100.
 
 Source: github.com/EtherSPH/EtherSPH.jl, commit 29ebcf01, src/SPH/Library/*.jl and
@@ -32,15 +32,15 @@ FILE, KEY = ROOT/"results"/"bench"/"ethersph.csv", ["ra", "rows", "factor"]
 PR, RANGE, SOFT, REFILTER, BACKGROUND = 0.71, 3.0, 0.01, 30, 0.02
 #: Ra -> speed of sound, factor of the walls' conductivity, time of the run
 RUNS = {1e3: (3.0, 0.58, 50.0), 1e4: (3.5, 0.48, 50.0), 1e5: (4.0, 0.36, 50.0), 1e6: (4.5, 0.20, 60.0)}
-SKIN = 0.6          # spacings
-WALLS = 3           # rows
-SAMPLES = 10        # of the last fifth
+SKIN = 0.6          # of the neighbour lists, in spacings
+WALLS = 3           # rows of wall particles
+SAMPLES = 10        # in the last fifth of the run
 FLUID, HOT, COLD, CLOSED = range(4)
 
 
 class Numbers(NamedTuple):
-    """Of a run: spacing, range, speed of sound, viscosity, diffusivity, what friction and heat of walls are
-    multiplied by, lift of an even difference of temperature."""
+    """Spacing, range, speed of sound, viscosity, diffusivity of a run; factors of friction and heat at walls;
+    buoyancy per temperature."""
     a: float
     reach: float
     c: float
@@ -52,13 +52,13 @@ class Numbers(NamedTuple):
 
 
 def numbers(ra: float, rows: int, factor: float) -> Numbers:
-    """Harmonic means with walls 1000 times as viscous, `factor` times as conducting."""
+    """Numbers of a run; at walls harmonic means with 1000 nu and with factor times the conductivity."""
     a, nu = 1/rows, PR/ra**0.5
     return Numbers(a, RANGE*a, RUNS[ra][0], nu, nu/PR, 2000/1001, 2*factor/(1 + factor), PR)
 
 
 def placed(rows: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Places (n, 2), kinds, normals of walls (n, 2), the fluid first; corners belong to the heated sides."""
+    """Places (n, 2), kinds (n,), wall normals (n, 2), the fluid first; corners belong to heated sides."""
     at = (np.arange(-WALLS, rows + WALLS) + 0.5)/rows
     x = np.stack(np.meshgrid(at, at, indexing="ij"), axis=-1).reshape(-1, 2)
     side = (x > 1).astype(int) - (x < 0)
@@ -70,21 +70,21 @@ def placed(rows: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
 
 @jit
 def value(r, h):
-    """W of Wendland's C2 of range h, in two dimensions."""
+    """W(r) of Wendland's C2 weight of range h, in two dimensions."""
     q = min(r/h, 1.0)
     return 7/(np.pi*h*h)*(1 - q)**4*(1 + 4*q)
 
 
 @jit
 def slope(r, h):
-    """dW/dr."""
+    """dW/dr of the same weight."""
     q = min(r/h, 1.0)
     return -140/(np.pi*h**3)*q*(1 - q)**3
 
 
 @jit
 def continue_density(n, lists, x, v, rho, by, dt):
-    """rho += dt m sum (v_i - v_j).grad W, over fluid alone."""
+    """rho += dt m sum (v_i - v_j).grad W over fluid particles, in place."""
     start, length, listed = lists
     for i in range(n):
         total = 0.0
@@ -99,7 +99,7 @@ def continue_density(n, lists, x, v, rho, by, dt):
 
 @jit
 def filter_density(n, lists, x, rho, by):
-    """Shepard's: sum m W/sum (m/rho) W, over fluid alone."""
+    """Shepard's filter, rho = sum m W/sum (m/rho) W over fluid particles, in place."""
     start, length, listed = lists
     new = rho.copy()
     for i in range(n):
@@ -116,7 +116,7 @@ def filter_density(n, lists, x, rho, by):
 
 @jit
 def rate(n, lists, x, v, rho, T, kind, normal, by, dv, dT, heat):
-    """Accelerations, rates of T, and the heat that each kind of wall gives to the fluid per alpha."""
+    """Accelerations dv, rates dT, and the heat that each kind of wall gives to the fluid, over alpha."""
     start, length, listed = lists
     near, soft = value(by.a, by.reach), SOFT*(by.reach/2)**2
     heat[:] = 0.0
@@ -148,13 +148,13 @@ def rate(n, lists, x, v, rho, T, kind, normal, by, dv, dT, heat):
 
 @jit
 def pressure(rho, by):
-    """Of water nearly at rest, with a background."""
+    """Linear equation of state with a background pressure."""
     return by.c**2*(rho - 1) + BACKGROUND*by.c**2
 
 
 @jit
 def held_off(dx, dy, r, v, normal, by):
-    """Acceleration along the normal of a wall's particle    [Rogers & Dalrymple 2008]"""
+    """Repulsive acceleration along the normal of a wall particle    [Rogers & Dalrymple 2008]"""
     psi = abs(dx*normal[0] + dy*normal[1])
     xi, eta = np.sqrt(max(0.0, r*r - psi*psi)), psi/by.a
     if eta > 1 or xi > by.a or eta == 0:
@@ -165,7 +165,7 @@ def held_off(dx, dy, r, v, normal, by):
 
 
 def as_read(x: np.ndarray, kind: np.ndarray, T: np.ndarray, rows: int) -> float:
-    """Nu from T smoothed by exp(-(2 r/range)^2) at x = 0 and one spacing further, by differences."""
+    """Nu as the code has it: slope of T, smoothed by exp(-(2 r/range)^2), from x = 0 to one spacing."""
     y = np.linspace(0, 1, rows + 1)
     known, columns = kind != CLOSED, []
     tree, points, values = cKDTree(x[known]), x[known], T[known]
@@ -178,7 +178,7 @@ def as_read(x: np.ndarray, kind: np.ndarray, T: np.ndarray, rows: int) -> float:
 
 
 def run(ra: float, rows: int, factor: float, until: float | None = None) -> dict[str, Any]:
-    """A row of the table, until the code's own time or another. Raises ValueError: Ra is none of theirs."""
+    """Run a case to the code's own time or another; return its row. Raises ValueError: Ra is not in RUNS."""
     if ra not in RUNS:
         raise ValueError(f"Ra must be one of {', '.join(f'{known:g}' for known in RUNS)}, got {ra:g}: "
                          "the code has no speed of sound for another")
@@ -209,14 +209,14 @@ def run(ra: float, rows: int, factor: float, until: float | None = None) -> dict
 
 
 def keep(row: pd.DataFrame) -> None:
-    """In the table, in place of an older one."""
+    """Write a row to the table, in place of an older one of the same case."""
     table = pd.concat([read(FILE), row]) if FILE.exists() else row
     table = table.drop_duplicates(KEY, keep="last").sort_values(KEY)
     write(FILE, table, head=["python -m bench.ethersph", versions(), cpu()])
 
 
 def main() -> None:
-    """As the head says."""
+    """Run the cases of the command line, and write each row as it comes."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--rows", type=int, nargs="+", default=[50, 100])
     parser.add_argument("--ra", type=float, nargs="+", default=list(RUNS))

@@ -16,8 +16,8 @@ INPUTS = {file.stem: file.read_text() for file in (Path(__file__).parent/"lammps
 
 
 class Style(NamedTuple):
-    """step : in spacings over the speed of sound, the longest of 0.4, 0.2, ... at which velocities of the
-    vortex of 16 rows end as with shorter ones, to 5 %. kernel : of RHEO, and what else `fix rheo` is told."""
+    """step : time step in spacings over the speed of sound, the longest of 0.4, 0.2, ... with which the
+    vortex of 16 rows ends within 5 % of the velocities of shorter steps. kernel : words of `fix rheo`."""
     step: float
     kernel: str = ""
     artificial: str = ""
@@ -31,7 +31,8 @@ STYLES = {"sph": Style(0.05), "rheo": Style(0.4, "quintic 0"), "rheo-RK1": Style
 class Flow(NamedTuple):
     """Rows x columns of particles around the origin; nu = kappa, speed of sound c, time of a run, spacing a.
 
-    Between plates if these have temperatures; the upper one slides; g lifts per temperature above 1.
+    With hot and cold temperatures it lies between plates, the upper one of speed `slide`. Buoyancy is g per
+    temperature above 1.
     """
     rows: int
     columns: int
@@ -53,12 +54,12 @@ class Flow(NamedTuple):
         return DEPTH if self.hot else 0
 
     def dt(self, style: str) -> float:
-        """Forces of RHEO grow by 1/a^2, as its sound does by 1/a."""
+        """Time step: forces of RHEO grow as 1/a^2, since its sound is as fast as 1/a."""
         return STYLES[style].step*self.a**2/self.c
 
 
 def script(flow: Flow, style: str) -> tuple[str, str]:
-    """What LAMMPS is told before its particles are there, and after."""
+    """Commands of LAMMPS before and after its particles are made."""
     how, x, y = STYLES[style], flow.columns*flow.a/2, flow.L/2 + flow.depth*flow.a
     words = {**flow._asdict(), **how._asdict(), "left": -x, "right": x, "bottom": -y, "top": y,
              "atoms": "rheo/thermal" if how.kernel else "sph", "mass": flow.a**2, "reach": REACH*flow.a,
@@ -69,7 +70,7 @@ def script(flow: Flow, style: str) -> tuple[str, str]:
 
 
 def placed(flow: Flow, seed: int = 1) -> tuple[np.ndarray, np.ndarray]:
-    """Places (n, 2) and types: fluid 1, lower rows 2, upper rows 3; the fluid first."""
+    """Places (n, 2) and types (n,): fluid 1, frozen rows below 2, above 3; the fluid comes first."""
     x = flow.a*positions(flow.columns, flow.rows, START_JITTER, seed)
     across = flow.a*(np.arange(flow.columns) + 0.5 - flow.columns/2)
     up = flow.L/2 + flow.a*(np.arange(flow.depth) + 0.5)
@@ -103,7 +104,7 @@ class Box:
         return x, v, np.array(self.lammps.gather_atoms("esph", 1, 1))[:self.n]/DEGREE
 
     def sampled(self, share: float, samples: int = 40) -> Iterator[tuple[np.ndarray, np.ndarray, np.ndarray]]:
-        """The fluid so many times in what is left of the run after a share of it."""
+        """Yield the fluid at equal times in the rest of the run, after a share of it has passed."""
         self.advance(round(share*self.steps))
         for _ in range(samples):
             self.advance(round((1 - share)*self.steps/samples))

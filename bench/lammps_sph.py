@@ -1,12 +1,12 @@
-"""The comparable three sums in LAMMPS: density, pressure with viscosity, conduction.
+"""Three sums of LAMMPS that are comparable to ours: density, pressure with viscosity, conduction.
 
 `sph/rhosum` (Lucy's weight, every step) + `sph/idealgas` + `sph/heatconduction` in hybrid/overlay, 2D, h = 3,
-density 1: the same particles per range. Its lists hold each pair once where ours hold it twice (Newton's
-third law; only the density sum takes a full list), it knows neither the gradients of v and T nor a stress
-tensor: its viscosity is artificial, along the pair; and it integrates the density besides, which `sph/rhosum`
-overwrites. One evaluation a step of a quarter of our step: particles move as far per evaluation as in our
-RK4, so lists grow old as fast. Every block starts from our particles and their velocities. Periodic in both
-directions with T = 1, without gravity: no walls to pay for.
+density 1: as many particles in range as ours. Differences: its lists hold each pair once, ours twice
+(Newton's third law; only its density sum takes a full list). It has no gradients of v and T and no stress
+tensor: its viscosity is artificial, along the pair. It also integrates the density, which `sph/rhosum`
+overwrites. Its step is a quarter of ours with one evaluation: particles move as far per evaluation as in our
+RK4, so lists last as long. Every block starts from our particles and their velocities. Periodic in both
+directions, T = 1, no gravity: no walls.
 """
 import ctypes
 import os
@@ -20,7 +20,7 @@ import numpy as np
 
 from bench.convection import DT, EVALUATIONS, H
 
-SKINS = (0.1, 0.15, 0.2, 0.3)     # tried; the fastest counts
+SKINS = (0.1, 0.15, 0.2, 0.3)     # of LAMMPS' lists: the fastest of these is taken
 
 SETTINGS = """units lj
 dimension 2
@@ -81,7 +81,7 @@ class Lammps:
         self._lammps.commands_string(PHYSICS.format(h=H, skin=skin, dt=DT/EVALUATIONS))
 
     def seconds(self, evaluations: int) -> float:
-        """CPU seconds of so many steps, one evaluation each, from the particles that were given."""
+        """CPU seconds of some steps of one evaluation each, from the given particles."""
         for name, values in (("x", self._x), ("v", self._v)):
             self._lammps.scatter_atoms(name, 1, 3, as_doubles(values))
         self._lammps.command("run 1 pre no post no")     # makes lists
@@ -90,7 +90,7 @@ class Lammps:
         return time.process_time() - began
 
     def describe(self) -> str:
-        """Version, list skin, the fastest particle."""
+        """A line with the version, the skin of the lists, and the speed of the fastest particle."""
         v = self._lammps.numpy.extract_atom("v")[:self.n]
         return (f"LAMMPS {self._lammps.version()}: skin {self.skin}, fastest particle at speed "
                 f"{np.sqrt((v**2).sum(1).max()):.2f}")
@@ -100,12 +100,12 @@ class Lammps:
 
 
 def flat_points(q: np.ndarray) -> np.ndarray:
-    """x, y, 0 of one particle after the other, from (2, n)."""
+    """(x, y, 0) of all particles one after the other, (3 n,), from places (2, n)."""
     return np.vstack([q, np.zeros((1, q.shape[1]))]).T.ravel()
 
 
 def as_doubles(values: np.ndarray) -> Any:
-    """A numpy array as ctypes sees it, without a copy."""
+    """Pointer to the numbers of a numpy array, without a copy."""
     return values.ctypes.data_as(ctypes.POINTER(ctypes.c_double))
 
 

@@ -31,7 +31,7 @@ from studies.kit.key import ROOT
 
 FILE = ROOT/"results"/"bench"/"points_speed.csv"
 SCENE = RayleighBenard(ra=1e4, L=100.0)
-#: an evaluation, in ns a point
+#: nanoseconds per point and evaluation, by row of the table
 GOALS = {"spam": 185, "spam-sumB": 350}
 TUBE = ShockTube(half=50, eta=0.0, L=100.0)
 REPEATS, EVALUATIONS, STEPS, AHEAD = 21, 10, 12, 100
@@ -40,7 +40,7 @@ LATTICE, DELAUNAY, MOVING = (f"{kind}-entropy-stable" for kind in ("fixed-lattic
 
 
 def called(n: int, loop: Callable, *arguments: Any) -> Callable[[], float]:
-    """Nanoseconds a point of a loop over n points."""
+    """A measurement of a loop over n points, in nanoseconds per point."""
     def measure() -> float:
         began = time.process_time()
         for _ in range(EVALUATIONS):
@@ -50,14 +50,14 @@ def called(n: int, loop: Callable, *arguments: Any) -> Callable[[], float]:
 
 
 def fixed(name: str, fast: bool = True) -> Callable[[], float]:
-    """An evaluation of one scheme on fixed points."""
+    """A measurement of one evaluation of a scheme on fixed points."""
     method, state, _ = ready(SCENE, name)
     method, n = replace(method, form=None if fast else LayerSums), state.shape[1]
     return called(n, method.start(n, Threads(1)).rates, state, np.empty_like(state))
 
 
 def entropy_stable(name: str, noise: float = 0.0) -> Callable[[], float]:
-    """An evaluation in Sod's tube some steps after the start, or in noise, where every edge dissipates."""
+    """A measurement of one evaluation in Sod's tube after AHEAD steps, or in noise: every edge dissipates."""
     method, state, dt = ready(TUBE, name)
     n = state.shape[1]
     if noise:
@@ -69,7 +69,7 @@ def entropy_stable(name: str, noise: float = 0.0) -> Callable[[], float]:
 
 
 def parts_of_a_step(ahead: int = 30) -> dict[str, Callable[[], float]]:
-    """Loops of a step of points that move with their triangulation; four stages read and exchange."""
+    """Measurements of the loops of a step of `moving-delaunay`; `read` and `stage` run four times a step."""
     method, y, dt = ready(SCENE, "moving-delaunay")
     n, one = y.shape[1], Threads(1)
     sums = method.start(n, one)
@@ -86,9 +86,9 @@ def parts_of_a_step(ahead: int = 30) -> dict[str, Callable[[], float]]:
 
 
 def step(method: Any, first: np.ndarray, evaluations: int = 1, ahead: int = 30) -> Callable[[], float]:
-    """Nanoseconds a point and step, or evaluation of which a step has so many, lists and faces included.
+    """A measurement of whole steps, in nanoseconds per point and evaluation, lists and faces included.
 
-    The difference of two lengths of a run, from a state some steps ahead of the start.
+    It is the difference of two lengths of a run, from a state some steps ahead of the start.
     """
     dt = 0.8*limit_of(method, first)
     warm = run(method, first, Plan(dt=dt, steps=ahead)).state
@@ -104,12 +104,12 @@ def step(method: Any, first: np.ndarray, evaluations: int = 1, ahead: int = 30) 
 
 
 def closed(name: str) -> Callable[[], float]:
-    """A step of three evaluations over faces that are made once a step."""
+    """A measurement of a step of three evaluations over faces that are made once a step."""
     return step(*ready(SCENE, name)[:2])
 
 
 def bracket(name: str) -> Callable[[], float]:
-    """An evaluation of RR98's own motions, or of smooth particles: pairs in range, fields, sums."""
+    """A measurement of one evaluation of RR98's motions or smooth particles: pairs in range, fields, sums."""
     method, state, _ = ready(SCENE, name)
     n = state.shape[1]
     sums = method.start(n, Threads(1))
@@ -118,13 +118,13 @@ def bracket(name: str) -> Callable[[], float]:
 
 
 def marched(name: str, **changes: Any) -> Callable[[], float]:
-    """The same within a run: with lists, limits, and what makes one step of four evaluations."""
+    """A measurement of one evaluation within a run: lists and step limits included."""
     method, state, _ = ready(SCENE, name)
     return step(replace(method, **changes), state, RK4.evaluations)
 
 
 def main() -> None:
-    """Measure and write."""
+    """Measure, print, and write the table."""
     kinds = {"fixed points, h = 2 a": fixed("fixed-lattice"),
              "fixed points, h = 3 a": fixed("fixed-lattice-h3"),
              "fixed points, h = 3 a, edge by edge": fixed("fixed-lattice-h3", fast=False),

@@ -40,7 +40,7 @@ def time_row(what: str, particles: int, threads: int, ns: Any) -> dict[str, Any]
 
 
 def value_row(what: str, particles: int, threads: int, value: float, unit: str) -> dict[str, Any]:
-    """One number that is no time per evaluation."""
+    """A row with one number that is not a time per evaluation."""
     return {"what": what, "particles": particles, "threads": threads, "value": value, "unit": unit}
 
 
@@ -49,13 +49,13 @@ def ns(seconds: list[float], particles: int) -> np.ndarray:
 
 
 def one_core(particles: int, blocks: int) -> list[dict[str, Any]]:
-    """Ours alone and its stages."""
+    """Rows of SPAM alone and of its stages."""
     rows = [time_row("spam", particles, 1, ns(block_seconds(particles, blocks), particles))]
     return rows + [time_row(name, particles, 1, values) for name, values in stages(particles, blocks).items()]
 
 
 def beside_lammps(particles: int, blocks: int) -> list[dict[str, Any]]:
-    """Ours and LAMMPS in turns."""
+    """Rows of SPAM and LAMMPS, measured in turns."""
     theirs: list[float] = []
     other: Lammps = fastest(melted(particles), method(particles).box)
     ours = block_seconds(particles, blocks, between=lambda: theirs.append(other.seconds(BLOCK*EVALUATIONS)))
@@ -68,7 +68,7 @@ def beside_lammps(particles: int, blocks: int) -> list[dict[str, Any]]:
 
 
 def two_threads(particles: int, rounds: int) -> list[dict[str, Any]]:
-    """One thread and two in turns, the time that passes."""
+    """Rows of wall-clock time with one thread and with two, measured in turns."""
     seconds: dict[int, list[float]] = {1: [], 2: []}
     for _ in range(rounds):
         for threads, laps in seconds.items():
@@ -80,14 +80,14 @@ def two_threads(particles: int, rounds: int) -> list[dict[str, Any]]:
 
 
 def peak_memory(particles: int) -> list[dict[str, Any]]:
-    """Peak memory of a process that steps so many particles."""
+    """Row of the peak memory of a process that steps some particles."""
     words = [sys.executable, "-m", "bench.spam_speed", "--only-memory", str(particles)]
     printed = subprocess.run(words, capture_output=True, text=True, check=True, cwd=ROOT).stdout
     return [value_row("peak_rss_gb", particles, 1, float(printed), "GB")]
 
 
 def print_memory(particles: int) -> None:
-    """The process of `peak_memory`: steps with new lists, then prints the most memory it took."""
+    """Run in the process of `peak_memory`: make steps with new lists, then print the peak memory."""
     case = method(particles)
     run(case, lattice(case.box), Plan(dt=DT, steps=4))
     kilobytes = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
@@ -95,7 +95,7 @@ def print_memory(particles: int) -> None:
 
 
 def goals(table: pd.DataFrame) -> list[tuple[str, float, str, bool]]:
-    """(goal, measured, unit, met)."""
+    """Tuples (goal, measured, unit, met)."""
     def of(what: str, particles: int, column: str = "value") -> float:
         found = table[(table.what == what) & (table.particles == particles)][column]
         return float(found.iloc[0]) if len(found) else float("nan")
@@ -111,7 +111,7 @@ def goals(table: pd.DataFrame) -> list[tuple[str, float, str, bool]]:
 
 
 def size(particles: int) -> int:
-    """The number of particles in the box that comes closest to the wanted one."""
+    """Number of particles of the box that comes closest to the given number."""
     return lattice(method(particles).box).shape[1]
 
 
@@ -128,7 +128,7 @@ def main() -> None:
 
 
 def measure(no_lammps: bool) -> None:
-    """All rows, the table, the goals."""
+    """Measure all rows, write the table, print it with the goals."""
     load = os.getloadavg()[0]
     if load > 0.5:
         print(f"The machine is not quiet (load {load:.1f}): times are too long, those that pass most of all")

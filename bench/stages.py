@@ -1,6 +1,6 @@
-"""Where the time goes: list upkeep, weights, two sweeps, the rest (ns per particle and evaluation).
+"""Time of each stage of an evaluation: lists, weights, two sweeps, rest (ns per particle and evaluation).
 
-The stages are timed by wrapping the functions that hand them to the threads, about a microsecond a call.
+Stages are timed by wrapping the functions that hand them to threads, which costs a microsecond a call.
 """
 from collections import defaultdict
 from collections.abc import Callable, Iterator
@@ -37,13 +37,13 @@ def timed(owner: type, method: str, name: Callable[..., str], spent: dict[str, f
 
 
 def stage_of(function: Any, rows: int, *arguments: Any) -> str:
-    """The stage that a call of threads belongs to, if it is one of the three sums."""
+    """Name of the stage that a call of threads belongs to, or "other"."""
     word = type(arguments[0]).__name__ if function.__name__ == "sweep" else function.__name__
     return NAMES.get(word, "other")
 
 
 def stages(particles: int, blocks: int) -> dict[str, np.ndarray]:
-    """Nanoseconds per particle and evaluation of each stage, one value a block."""
+    """Nanoseconds per particle and evaluation by name of the stage, one value per block."""
     spent: dict[str, float] = defaultdict(float)
     laps: list[dict[str, float]] = []
 
