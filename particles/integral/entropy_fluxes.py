@@ -176,20 +176,36 @@ def astir(a, b, ab, P, r, by_x, by_y):
 def _(term, a, b, ab):
     P, r, by_x, by_y = jumps(a, b, ab)
     if astir(a, b, ab, P, r, by_x, by_y):
-        return brought(term.eos, a, b, ab, P, r, by_x, by_y)
+        return waves(term.eos, a, b, ab, P, r, by_x, by_y)
     return 0.0, 0.0, 0.0, 0.0
+
+
+@generic
+def acoustics(eos, a, b, rho, e):
+    """c^2; h, which sound carries; D(rho e)/D(rho) at constant P, which entropy waves carry; the jump of g/T;
+    weights of both waves, rho T/c^2 and rho T (1/c_T^2 - 1/c^2). rho, e : of `log_means`."""
+
+
+@acoustics.of(IdealGas)
+def _(eos, a, b, rho, e):
+    gamma, mean, dbeta = 1 + 1/eos.cv, 0.5*(a.rho + b.rho), 1/b.T - 1/a.T
+    c2 = gamma*2*mean/(1/a.T + 1/b.T)/rho
+    return c2, c2*eos.cv, 0.0, (b.rho - a.rho)/rho + dbeta*e, rho/gamma, rho*(gamma - 1)/gamma
 
 
 @formula
 def waves(eos, a, b, ab, P, r, by_x, by_y):
-    """Gains of a by dissipation of pressure waves, normal velocity, entropy and shear, from `jumps`."""
-    size, cv, gamma = np.sqrt(ab.sx*ab.sx + ab.sy*ab.sy), eos.cv, 1 + 1/eos.cv
+    """Gains of a by dissipation of pressure waves, normal velocity, entropy and shear, from `jumps`.
+
+    R R^T = dU/dq weighs sound and entropy as in `acoustics`, velocities by rho T    [Barth 1999]
+    """
+    size = np.sqrt(ab.sx*ab.sx + ab.sy*ab.sy)
     nx, ny = ab.sx/max(size, 1e-300), ab.sy/max(size, 1e-300)
     (dP, P0, P1), (drho, r0, r1), (du, u0, u1), (dv, v0, v1) = P, r, by_x, by_y
     rho, e = log_means(eos, a, b)
+    c2, h, at_P, jump, of_sound, of_heat = acoustics(eos, a, b, rho, e)
     u, v, mean, dbeta = 0.5*(a.vx + b.vx), 0.5*(a.vy + b.vy), 0.5*(a.rho + b.rho), 1/b.T - 1/a.T
     un, ut, dun, dut = u*nx + v*ny, v*nx - u*ny, du*nx + dv*ny, dv*nx - du*ny
-    c2 = gamma*2*mean/(1/a.T + 1/b.T)/rho
     of_P, P_line = bend(dP, P0, P1, b.P - a.P)
     of_n, n_line = bend(dun, u0*nx + v0*ny, u1*nx + v1*ny, dun)
     of_t, _ = bend(dut, v0*nx - u0*ny, v1*nx - u1*ny, dut)
@@ -198,13 +214,12 @@ def waves(eos, a, b, ab, P, r, by_x, by_y):
     rx, ry = 0.5*(a.rx + b.rx), 0.5*(a.ry + b.ry)
     flow, fast = np.sqrt(rx*rx + ry*ry), fastest(a, b, ab)
     slow = size*np.sqrt((rx*nx + ry*ny)**2 + (SLOW*flow)**2)
-    jump = drho/rho + dbeta*e       # jump of -s
-    sound = fast*max(of_P, steep*P_line)*rho/gamma*(jump - c2*cv*dbeta)
+    sound = fast*max(of_P, steep*P_line)*of_sound*(jump - h*dbeta)
     across = fast*min(1.0, max(flow/np.sqrt(c2), sigma))*max(of_n, sigma*n_line)*mean*dun
-    heat, along = slow*max(of_s, sigma*s_line)*rho*(gamma - 1)/gamma*jump, slow*of_t*mean*dut
-    m = sound + heat
+    heat = slow*max(of_s, sigma*s_line)*of_heat*(jump - at_P*dbeta)
+    m, along = sound + heat, slow*of_t*mean*dut
     return (m, m*u + across*nx - along*ny, m*v + across*ny + along*nx,
-            0.5*m*(a.vx*b.vx + a.vy*b.vy) + sound*c2*cv + across*un + along*ut)
+            0.5*m*(a.vx*b.vx + a.vy*b.vy) + sound*h + heat*at_P + across*un + along*ut)
 
 
 @formula
@@ -219,11 +234,3 @@ def fastest(a, b, ab):
     """|S|/2 (|(v - {w}).n| + c), the larger of two points' values."""
     size, (one, other) = np.sqrt(ab.sx*ab.sx + ab.sy*ab.sy), against(a, b, ab)
     return max(abs(one) + size*a.c, abs(other) + size*b.c)
-
-
-@generic
-def brought(eos, a, b, ab, P, r, by_x, by_y):
-    """Gains of a by dissipation of all four kinds of waves, by the type of the equation of state."""
-
-
-brought.of(IdealGas)(lambda eos, a, b, ab, P, r, by_x, by_y: waves(eos, a, b, ab, P, r, by_x, by_y))

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from continuum.jit import formula, jit, jit_apart, jit_records
-from particles.integral.entropy_fluxes import Dissipation, Logarithmic, astir, brought, jumps
+from particles.integral.entropy_fluxes import Dissipation, Logarithmic, astir, jumps, waves
 from particles.integral.exchange import Conduction, Friction, Listing
 from particles.integral.lanes import BLOCK, COLUMNS, end_at, read_lanes
 from particles.integral.transposed_stress import Mending
@@ -111,7 +111,7 @@ def _stir_all(first, last, term, points, a, b, once, stirred, sent):
     for h in range(first, last):
         ab, q, here = edge_at(once, h), sent[h], 1.0*stirred[h]
         one, other = end_at(a, h - first, points[once.i[h]]), end_at(b, h - first, points[once.near[h]])
-        m, px, py, e = brought(term.eos, one, other, ab, *jumps(one, other, ab))
+        m, px, py, e = waves(term.eos, one, other, ab, *jumps(one, other, ab))
         q.m, q.px, q.py, q.e = q.m + here*m, q.px + here*px, q.py + here*py, q.e + here*e
 
 

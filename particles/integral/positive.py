@@ -42,6 +42,7 @@ class Excess(NamedTuple):
 class Limited(NamedTuple):
     """Minus the part of `excess` that an edge leaves out    [Zalesak 1979; Guermond & Popov 2017]"""
     excess: Excess
+    eos: Any
 
 
 @pair_term(Slopes, 8)
@@ -78,11 +79,16 @@ def share(a, rho, px, py, eps):
     return min(part, 2*zero/turn) if inside >= 0 and turn > 0 else part
 
 
+@generic
+def share_of(eos, a, rho, px, py, eps):
+    """`share` for the type of the equation of state."""
+
+
 @pair_term(Limited, 4)
 def _(term, a, b, ab):
     m, px, py, e = rate(term.excess, a, b, ab)
-    less = min(share(a, a.room*m, a.room*px, a.room*py, a.room*e),
-               share(b, -b.room*m, -b.room*px, -b.room*py, -b.room*e)) - 1
+    less = min(share_of(term.eos, a, a.room*m, a.room*px, a.room*py, a.room*e),
+               share_of(term.eos, b, -b.room*m, -b.room*px, -b.room*py, -b.room*e)) - 1
     return less*m, less*px, less*py, less*e
 
 
@@ -121,7 +127,7 @@ class Limits:
         """Prepare counters, sums and arrays for the listed terms."""
         self.refused, self.limited, self.lost = 0, 0, self.n
         self.excess, self.gain = Excess(Listing(flow)), np.zeros((self.n, 4))
-        self.leaves_out = limited(self.method.eos, self.excess)
+        self.leaves_out = Limited(self.excess, self.method.eos)
         self.slopes, self.fastest = np.zeros((self.n, 8)), np.zeros((self.n, 1))
         self.sending = Sending(flow, self.method.transport, self.n, self.threads)
 
@@ -192,11 +198,6 @@ def crowded(eos, before, after):
     """Has any point lost most of the free volume between its molecules?"""
 
 
-@generic
-def limited(eos, excess):
-    """The term that gives what edges leave out, such as `Limited`."""
-
-
 above_cold.of(IdealGas)(lambda eos, state: state)
 crowded.of(IdealGas)(lambda eos, before, after: False)
-limited.of(IdealGas)(lambda eos, excess: Limited(excess))
+share_of.of(IdealGas)(lambda eos, a, rho, px, py, eps: share(a, rho, px, py, eps))
