@@ -24,9 +24,8 @@ from studies.build.answers import answer
 from studies.build.scenes import SOUND, Start, TaylorGreen
 from studies.build.stable import BODIES
 from studies.hardcases.extremes import BEGIN, SPEED, U
-from studies.hardcases.impacts import PROBLEMS, Bow, Frictionless, Ripple, Strip, radii
+from studies.hardcases.impacts import EOS, GAMMA, PROBLEMS, Bow, Frictionless, Ripple, Strip, radii
 from studies.hardcases.runs import GRID, Course, Question, Row, copied, fate
-from studies.hardcases.tubes import EOS, GAMMA
 
 #: methods that exist without and with the entropy-stable flux
 EDGES = LATTICE, JITTERED, CARRIED = "fixed-lattice", "fixed-jittered-delaunay", "moving-delaunay"
