@@ -25,8 +25,6 @@ def test_two_rarefactions_have_the_kinetic_energy_that_is_told():
     mass, _ = quad(rho, -SOUND, 2*SOUND)
     assert rarefied(2.0) == pytest.approx(per_time*2.0/extremes.STRIP.L)
     assert mass == pytest.approx(SOUND)        # what the fan has came from where the strip was
-    with pytest.raises(ValueError, match="met"):
-        rarefied(6.0)
 
 
 def fields(x, v) -> Fields:

@@ -18,9 +18,8 @@ from studies.hardcases.extremes import BOXES, CHESSBOARD, ROWS, SOUND, rarefied
 from studies.hardcases.printed import impulse
 from studies.kit.fits import line
 from studies.kit.stats import Measured, combine
-from studies.kit.table import Rows, Tables, groups
+from studies.kit.table import Row, Rows, Tables, groups
 
-Row = dict[str, Any]
 SETTLED = 0.3           # part of the time from the shock to its return after which the ripple grows steadily
 ENOUGH = 0.65           # part of that time that a run has to last: half of what SETTLED leaves
 LEAK, FROZEN, NEAR = 1e-3, 0.1, 0.1

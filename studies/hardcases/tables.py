@@ -1,8 +1,6 @@
 """The tables of the study: lengths in spacings, masses of particles or points; `_err` 95 % half widths."""
 from studies.kit.table import Table
 
-MEAN_FLOW = ("K of the flow of the last third: velocities averaged over 4 x 4 spacings", "epsilon/m")
-
 TABLES = (
     Table.of("squares", "eos weight ra seed", "alpha rolls begun flow ratio ratio_err shared",
              about="Particles in the square box of KHP95's Fig. 10 at the end.",
@@ -21,13 +19,14 @@ TABLES = (
                     "ra": ("Ra from which on runs are so; none if they are nowhere. Its error is half of the "
                            "interval between two trials", ""),
                     "outcome": ("of the first bad run", "")}),
-    Table.of("high_ra_summary", "method step kind",
-             "ra ra_low ra_high seeds outcome",
+    Table.of("high_ra_summary", "method step kind", "ra ra_low ra_high seeds outcome",
              about="The same over seeds, means of logarithms.",
              means={"kind": ("wrong or ends", ""), "ra": ("Ra from which on runs are so", ""),
                     "outcome": ("what most runs do there", "")}),
     Table.of("hard_runs", "case method rows", "k flow mass_drift k_start flow_start reached refused",
-             about="A hard case by one method.", means={"flow": MEAN_FLOW}),
+             about="A hard case by one method.", means={
+                 "flow": ("K of the flow of the last third: velocities averaged over 4 x 4 spacings",
+                          "epsilon/m")}),
     Table.of("probes", "case method", "measured reached", about="Densities that alternate, by one method.",
              means={"measured": ("what is left of them, over the start", "")}),
     Table.of("trials", "case method rows seed step",
