@@ -187,11 +187,11 @@ def unevenness(scene: Any, method: Any, state: np.ndarray) -> float:
     return float(np.sqrt(at.V@(at.rho - 1)**2/at.V.sum()))
 
 
-def left(scene: Any, course: Course) -> Row:
+def remaining(scene: Any, course: Course) -> Row:
     """Mean of the last third over the value at the start; it should be 0."""
     measured = np.mean(course.seen[late(course.seen)])/course.seen[0] if course.reached == 1 else np.nan
     return {"measured": measured, "reached": course.reached}
 
 
 #: how much is left of densities that alternate
-UNEVENNESS = Question(unevenness, left)
+UNEVENNESS = Question(unevenness, remaining)
