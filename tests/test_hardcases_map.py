@@ -7,14 +7,13 @@ import pytest
 from scenes import rows_of
 from scipy.integrate import quad
 
-from continuum.exact.shear import growing_wave
 from particles.fields import Fields, kinetic_energy
 from studies.build.unguarded import bisected
 from studies.hardcases import extremes
 from studies.hardcases.cases import TILED, cases
 from studies.hardcases.claims import SQUARES
 from studies.hardcases.derive import derive
-from studies.hardcases.extremes import BOXES, LAYERS, SHEAR_FLOW, SITUATIONS, SOUND, VORTEX, flow, rarefied
+from studies.hardcases.extremes import ALTERNATING, BOXES, LAYERS, SITUATIONS, SOUND, VORTEX, flow, rarefied
 from studies.hardcases.runs import SAMPLES, Hard, followed
 from studies.kit.claim import judged
 from studies.kit.table import Tables
@@ -26,8 +25,6 @@ def test_two_rarefactions_have_the_kinetic_energy_that_is_told():
     mass, _ = quad(rho, -SOUND, 2*SOUND)
     assert rarefied(2.0) == pytest.approx(per_time*2.0/extremes.STRIP.L)
     assert mass == pytest.approx(SOUND)        # what the fan has came from where the strip was
-    with pytest.raises(ValueError, match="met"):
-        rarefied(6.0)
 
 
 def fields(x, v) -> Fields:
@@ -44,19 +41,18 @@ def test_flow_is_what_is_alike_in_a_cell_and_noise_what_is_not():
     assert kinetic_energy(fields(x, odd)) == pytest.approx(1.0)
 
 
-@pytest.mark.parametrize("scene", [VORTEX, SHEAR_FLOW], ids=["vortex", "shear flow"])
-def test_flows_have_no_divergence(scene):
+def test_the_vortex_has_no_divergence_and_no_flow_through_walls():
     d, (x, y) = 1e-5, np.random.default_rng(1).uniform(-8, 8, (2, 20))
-    u = scene.flow(x + d, y)[0] - scene.flow(x - d, y)[0]
-    v = scene.flow(x, y + d)[1] - scene.flow(x, y - d)[1]
+    u = VORTEX.flow(x + d, y)[0] - VORTEX.flow(x - d, y)[0]
+    v = VORTEX.flow(x, y + d)[1] - VORTEX.flow(x, y - d)[1]
     assert np.abs(u + v).max()/(2*d) < 1e-9
-    assert np.abs(VORTEX.flow(x, np.full(20, 8.0))[1]).max() < 1e-15, "it passes through a wall"
+    assert np.abs(VORTEX.flow(x, np.full(20, 8.0))[1]).max() < 1e-15
 
 
 def hard(table: str, case: str) -> list[Hard]:
-    """Runs of a case, but for those of ranges below 1.2, which are refused, and of grids between plates."""
+    """Runs of a case, but for those of grids between plates."""
     return [one for one in cases("paper") if type(one) is Hard and one.into == table
-            and one.which["case"] == case and "0.9" not in one.which["method"]]
+            and one.which["case"] == case]
 
 
 @pytest.mark.parametrize("case", SITUATIONS)
@@ -92,13 +88,6 @@ def test_outcomes_that_no_case_tells_apart(values, wanted):
     assert row["outcome"] == wanted
 
 
-@pytest.mark.parametrize("v_exact, wanted", [(0.02, "right"), (0.2, "wrong")])
-def test_a_tube_that_does_not_ring_may_still_be_off(v_exact, wanted):
-    tube = {"method": "grid", "eta": 0.0, "step": 0.5, "wiggles": 0.01, "reached": 1.0, "L": 96}
-    [row] = derive(Tables(method_tubes=pd.DataFrame([{**tube, "v_exact": v_exact}])))["map"]
-    assert row["outcome"] == wanted
-
-
 def test_the_grid_goes_round_a_box_without_plates():
     """A piece of a turn keeps mass and energy; a vacuum, even of a thousandth, ends the run."""
     ready, (vacuum, time) = TILED.ready(VORTEX), BOXES["vacuum"]
@@ -110,19 +99,13 @@ def test_the_grid_goes_round_a_box_without_plates():
     assert followed(TILED.ready(vacuum), time, SAMPLES, partial(extremes.seen, vacuum)).reached < 1
 
 
-@pytest.mark.parametrize("case, method, expected, within", [
-    ("alternating densities", "fixed-lattice", 1.0, 1e-6),  # no gradient sees the chessboard
-    ("alternating densities", "moving-delaunay", 0.0, 0.1)])
-def test_numbers_that_are_known_are_what_is_asked(case, method, expected, within):
-    probe, = (one for one in hard("probes", case) if one.which["method"] == method)
+@pytest.mark.parametrize("method, expected, within", [
+    ("fixed-lattice", 1.0, 1e-6),       # no gradient sees the chessboard
+    ("moving-delaunay", 0.0, 0.1)])
+def test_densities_that_alternate_are_what_is_asked(method, expected, within):
+    probe, = (one for one in hard("probes", ALTERNATING) if one.which["method"] == method)
     row, = rows_of(probe, "probes")
     assert row["measured"] == pytest.approx(expected, abs=within) and row["reached"] == 1
-
-
-def test_the_growth_of_a_wave_on_a_shear_flow_follows_from_its_own_equation():
-    """At long waves Kolmogorov's flow grows at k_x U/sqrt 2; short ones, k_x >= k, do not."""
-    assert growing_wave(extremes.U, 1.0, 1e-3)[0] == pytest.approx(1e-3*extremes.U/2**0.5, rel=1e-3)
-    assert growing_wave(extremes.U, 1.0, 1.01)[0] == pytest.approx(0, abs=1e-9)
 
 
 @pytest.mark.parametrize("flow, rolls, verdict", [

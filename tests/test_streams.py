@@ -66,6 +66,9 @@ def test_heat_spreads_at_even_pressure_by_half_of_its_conductivity():
 
 
 def test_the_wave_in_shear_grows_at_rayleighs_rate_and_is_rubbed_away():
+    # long waves grow at k_x U/sqrt 2, short ones, k_x >= k, do not
+    assert growing_wave(0.15, 1.0, 1e-3)[0] == pytest.approx(1e-3*0.15/sqrt(2), rel=1e-3)
+    assert growing_wave(0.15, 1.0, 1.01)[0] == pytest.approx(0, abs=1e-9)
     rate, _ = growing_wave(1.0, 1.0, 0.5)
     assert np.log(viscous_growth(1.0, 1.0, 0.5, 0.0, 9.0))/9 == pytest.approx(rate, rel=1e-7)
     # one that feels no layer decays by nu k_x^2

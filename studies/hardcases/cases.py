@@ -1,38 +1,39 @@
 """Which methods run in which hard case, by size; each method and each case is one line."""
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import replace
 from itertools import product
 from typing import Any
 
-from continuum.fluid import ConstEta, DenseFluid, IdealGas
-from particles.run import STUDIES
+from continuum.fluid import DenseFluid, IdealGas
 from particles.weights import Lucy, Monaghan
 from studies.build import SCENES, variant, variants
 from studies.build.answers import duration, with_rows
 from studies.build.spam import PRINTED, Variant
 from studies.build.stable import BODIES
-from studies.hardcases import columns, extremes, high_ra, impacts, printed, runs, tubes
+from studies.hardcases import columns, extremes, high_ra, impacts, runs
 from studies.hardcases.columns import BLENDED, CARRIED, COLUMNS, EDGES, HELD, JITTERED, LATTICE, PAIRS, STABLE
-from studies.hardcases.extremes import LAYERS, PROBES, ROWS, SITUATIONS, OnGrid, falls
-from studies.hardcases.high_ra import FineGrid, HighRa
+from studies.hardcases.extremes import (
+    ALTERNATING,
+    CHESSBOARD,
+    LAYERS,
+    ROWS,
+    SITUATIONS,
+    UNEVENNESS,
+    OnGrid,
+    falls,
+)
+from studies.hardcases.high_ra import HighRa
 from studies.hardcases.printed import Interface, Square
-from studies.hardcases.runs import GRID, By, Hard, Question, without_plates
-from studies.hardcases.tubes import BARELY, ETAS, STEPS, Profiled, Tube
+from studies.hardcases.runs import GRID, By, Hard, without_plates
 from studies.kit.case import Case
 
 MOVING = "moving"
 NESTED = "fixed-lattice-nested-only"
-RANDOM = (JITTERED, CARRIED, MOVING)    # the seed sets the places of the points
 CHEAP = (LATTICE, JITTERED, *STABLE, CARRIED)       # cheap enough for 32 rows
 TILED = By(runs.tiled, variant(GRID))
 
 #: name of a method -> what sets it up, by ready(scene, seed)
 Entrants = dict[str, Any]
-#: shock tubes: method -> what sets it up, and what is recorded at the end
-IN_TUBES: dict[str, tuple[Any, Callable]] = {
-    GRID: (By(tubes.cells, variant(GRID)), tubes.in_cells),
-    "spam": (By(printed.in_tubes, Lucy), printed.smoothed),
-    **{name: (By(runs.at_limit, variant(name)), tubes.binned) for name in (LATTICE, *RANDOM, *STABLE)}}
 #: the highest Ra: method -> function that runs it at one Ra, and the variant that this function takes
 IN_LAYERS: dict[str, tuple[Any, Any]] = {
     GRID: (high_ra.on_grid, ROWS),
@@ -60,9 +61,6 @@ TAKES: dict[str, Entrants] = {
     **dict.fromkeys(("Ra 1e7", "Ra 1e8"), variants(*CHEAP, MOVING) | smooth("spam", "spam-corrected")),
     "disordered points": variants(LATTICE, JITTERED, *STABLE, "fixed-random-delaunay", "fixed-jittered-plain",
                                   "fixed-jittered-closed", CARRIED),
-    "narrow weight": variants(LATTICE)
-    | {f"spam-range-{h:g}": By(runs.smooth, PRINTED._replace(h=h)) for h in (0.9, 1.2, 1.5, 2.0)}
-    | {f"fixed-lattice-h{h:g}": variant(LATTICE)._replace(h=h) for h in (0.9, 1.2, 1.5)},
     "zero viscosity": NO_PLATES,
     "vacuum": NO_PLATES,
     "wall corner": SPAM | TRIANGLES | variants(LATTICE, JITTERED, *STABLE)
@@ -71,26 +69,21 @@ TAKES: dict[str, Entrants] = {
     "long rest": variants(LATTICE, JITTERED, CARRIED),
     "a million points": {name: NO_PLATES[name] for name in (GRID, "spam")} | TRIANGLES,
 }
-#: case -> methods whose number is compared with a known one; smooth particles cannot have densities that
-#: alternate, and nodes of the grid do not see them
-PROBED = {"shear layer": USUAL | {GRID: TILED},
-          "alternating densities": variants(LATTICE, JITTERED, *STABLE, CARRIED, MOVING)}
+#: methods whose densities can alternate: smooth particles have none, and nodes of the grid do not see them
+ALTERNATE = variants(LATTICE, JITTERED, *STABLE, CARRIED, MOVING)
 #: methods of the trials (known answer, no viscosity); of today's smooth particles the consistent one
 TRIED = (GRID, LATTICE, JITTERED, CARRIED, MOVING, "spam", "spam-corrected", *STABLE)
 #: (method, case) -> further sizes
 LARGER = {**{(name, "Sod"): (200,) for name in STABLE}, (STABLE[0], "Sod"): (200, 400),
           (STABLE[0], "Mach 10"): (400,), (HELD, "Mach 3 body"): (192,), (STABLE[0], "100 turns"): (32,),
           **{(name, "shocked ripple"): (800,) for name in (STABLE[0], BLENDED)}}
-ROOMY = 2*tubes.HEIGHT  # where gases part, points that move are three spacings apart, and reach half of that
+ROOMY = 2*impacts.HEIGHT     # where gases part, points that move are 3 spacings apart, and reach half of that
 #: smooth flows: scene, rows, methods; convection on fixed irregular points would take a quarter of an hour
 FLOWS = (("rayleigh-benard", (48,), EDGES[:1]), ("rayleigh-benard", (25,), EDGES[2:]),
          ("taylor-green", (32, 64), EDGES), ("sound", (32,), EDGES))
 
 #: layers that also run with 32 rows
 TALL = ("Ra 1e5", "Ra 1e6", "Ra 1e7", "Ra 1e8", "Prandtl 0.01", "Prandtl 100", "high pressure")
-LENGTHS = (24, 36, 48, 72, 96, 144, 192)
-MORE_SEEDS = 16         # seeds of the longest viscous tube of smooth particles: it rings near the limit
-MORE_MOVING = 12        # seeds of that tube with moving points, whose error is near the limit
 MORE_STARTS = 8         # starts of the search with moving points at the usual step, whose limits scatter
 #: shocked interface: scale, k a, number of seeds
 RIPPLES = ((1.0, 0.25, 3), (1.0, 0.75, 3), (2.0, 0.25, 8), (4.0, 0.25, 7))
@@ -106,8 +99,6 @@ def cases(size: str) -> Iterator[Case]:
 
 def quick() -> Iterator[Case]:
     """A few cases of each kind that takes seconds only."""
-    yield from smooth_tubes((12, 15, 18), (0.0, 0.5), (1,))
-    yield from method_tubes((12, 15, 18), 1)
     yield Interface(scale=0.5)
     scene, time = SITUATIONS["Prandtl 100"]
     yield survival("Prandtl 100", LATTICE, variant(LATTICE), scene, time/10)
@@ -120,59 +111,15 @@ def paper() -> Iterator[Case]:
     for (eos, ra), weight in product(((IdealGas(), 67150.0), (DenseFluid(), 511200.0)), (Monaghan, Lucy)):
         yield Square(eos=eos, weight=weight, ra=ra, t_end=25.0, mean_from=15.0)
     yield Square(weight=Monaghan, ra=1e4, t_end=40.0, mean_from=30.0)
-    yield from smooth_tubes(LENGTHS, (0.0, 0.5), range(1, 4))
-    yield from smooth_tubes(LENGTHS[-1:], (0.5,), range(4, MORE_SEEDS + 1))
-    yield from method_tubes(LENGTHS[:5], 3)
-    for seed in range(4, MORE_MOVING + 1):
-        yield sod(MOVING, max(ETAS), 96, seed)
-    for method, eta, L in product(STABLE, ETAS, (48, 96)):      # whose steps are as short as they need anyway
-        yield sod(method, eta, L)
     for scale, steep, last in RIPPLES:
         yield from (Interface(scale=scale, steep=steep, seed=seed) for seed in range(1, last + 1))
     yield from (*highest(), *hard(), *flows(), *trials())
-
-
-# --- Sod's tube ---------------------------------------------------------------------------------------------
-
-def sod(method: str, eta: float, L: int, seed: int = 1, step: float = STEPS[0],
-        kind: type[Tube] = Tube) -> Tube:
-    """Sod's tube by one method. L : half of the tube, in spacings. step : over the limit at the start."""
-    entrant, look = IN_TUBES[method]
-    scene = tubes.Tubes(half=L, law=ConstEta(eta, eta))
-    of_entrant = 1.0 if method == "spam" else step
-    return kind(into="method_tubes", entrant=entrant, scene=scene, time=scene.time,
-                question=Question(look, tubes.sods_row),
-                which={"method": method, "eta": eta, "step": step, "L": L, "seed": seed},
-                seed=seed, step=of_entrant)
-
-
-def kept(seed: int, L: int, longest: int) -> type[Tube]:
-    """Class of a tube: only the first seed of the longest tube stores its profile."""
-    return Profiled if (seed, L) == (1, longest) else Tube
-
-
-def smooth_tubes(lengths: Sequence[int], etas: Sequence[float], seeds: Iterable[int]) -> Iterator[Case]:
-    """Sod's tubes by smooth particles."""
-    for L, eta, seed in product(lengths, etas, seeds):
-        yield sod("spam", eta, L, seed, STUDIES, kept(seed, L, max(lengths)))
-
-
-def method_tubes(lengths: Sequence[int], seeds: int) -> Iterator[Case]:
-    """Sod's tubes by the grid and by points, at all viscosities, steps and lengths. Disordered points have
-    several seeds in the most viscous gas, and in the longest tube that may ring.
-    """
-    for method, eta, step, L in product((GRID, LATTICE, *RANDOM), ETAS, STEPS, lengths):
-        several = eta == max(ETAS) or (eta, L, step) == (BARELY, max(lengths), max(STEPS))
-        last = seeds if method in RANDOM and several else 1
-        for seed in range(1, last + 1):
-            yield sod(method, eta, L, seed, step, kept(seed, L, max(lengths)))
 
 
 # --- the highest Ra -----------------------------------------------------------------------------------------
 
 def highest() -> Iterator[Case]:
     """Searches for the highest Ra, five starts each; of moving points MORE_STARTS, three in short steps."""
-    yield FineGrid()
     for (method, (attempt, chosen)), step in product(IN_LAYERS.items(), high_ra.STEPS):
         moving = MORE_STARTS if step == high_ra.STEPS[0] else 3
         for seed in range(1, 1 + (moving if method == MOVING else 5)):
@@ -188,7 +135,7 @@ def survival(case: str, method: str, entrant: Any, scene: Any, time: float) -> H
 
 
 def hard() -> Iterator[Case]:
-    """Cases of the map: layers and boxes (in a corner only round-off moves), and probes of known numbers."""
+    """Cases of the map: layers and boxes (in a corner only round-off moves), and densities that alternate."""
     for case, (scene, time) in SITUATIONS.items():
         for rows in ON_GRIDS.get(case, ()):
             yield OnGrid(into="hard_runs", which={"case": case, "method": GRID, "rows": rows},
@@ -200,10 +147,9 @@ def hard() -> Iterator[Case]:
         scene = replace(small, L=2.0*ROWS)
         later = time*falls(scene, 1.0)/falls(small, 1.0)
         yield from (survival(case, name, chosen, scene, later) for name, chosen in variants(*CHEAP).items())
-    for case, (scene, time, question, _) in PROBES.items():
-        for method, entrant in PROBED[case].items():
-            yield Hard(into="probes", which={"case": case, "method": method},
-                       entrant=By(without_plates, entrant), scene=scene, time=time, question=question)
+    for method, entrant in ALTERNATE.items():
+        yield Hard(into="probes", which={"case": ALTERNATING, "method": method}, question=UNEVENNESS,
+                   entrant=By(without_plates, entrant), scene=CHESSBOARD, time=300.0)
 
 
 def flows() -> Iterator[Case]:
@@ -211,8 +157,8 @@ def flows() -> Iterator[Case]:
     for scene, rows, names in FLOWS:
         for count, name in product(rows, names):
             yield from (flow(method, scene, count) for method in (name, PAIRS[name]))
-    for count, name in product((16, 24), (STABLE[0], BLENDED)):
-        yield flow(name, "rayleigh-benard", count)
+    for name in (STABLE[0], BLENDED):
+        yield flow(name, "rayleigh-benard", 24)
 
 
 def flow(method: str, name: str, rows: int) -> Hard:

@@ -23,10 +23,9 @@ from studies.build import variants
 from studies.build.answers import answer
 from studies.build.scenes import SOUND, Start, TaylorGreen
 from studies.build.stable import BODIES
-from studies.hardcases.extremes import BEGIN, SPEED, U
-from studies.hardcases.impacts import PROBLEMS, Bow, Frictionless, Ripple, Strip, radii
+from studies.hardcases.extremes import SPEED
+from studies.hardcases.impacts import EOS, GAMMA, PROBLEMS, Bow, Frictionless, Ripple, Strip, radii
 from studies.hardcases.runs import GRID, Course, Question, Row, copied, fate
-from studies.hardcases.tubes import EOS, GAMMA
 
 #: methods that exist without and with the entropy-stable flux
 EDGES = LATTICE, JITTERED, CARRIED = "fixed-lattice", "fixed-jittered-delaunay", "moving-delaunay"
@@ -36,6 +35,7 @@ BLENDED = f"{LATTICE}-entropy-stable-blended"
 #: method with points on plates, or on a body
 HELD = "fixed-jittered-plates-entropy-stable"
 COLD = 1e-6         # temperature that counts as zero
+U, BEGIN = 0.15, 0.01       # of the shear flow: speed, Mach number 0.1; size of its wave at the start over U
 
 
 @dataclass(frozen=True, kw_only=True)

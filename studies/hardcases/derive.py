@@ -3,11 +3,9 @@
 Rules of the map, written before the runs. diverges: the run did not reach its end. leaks: mass changed by
 more than LEAK. freezes: less than FROZEN of the flow is left. right: the number differs from its expected
 value by at most NEAR plus the uncertainty of the reference; without viscosity by at most the tolerance of
-`columns`, in all starts and steps of a size. wrong: stable, and none of these. A shock tube is right if v
-neither rings nor is off by more than NEAR, and diverges if a tube of any length did. refused: the method
-itself rejects the case. unjudged: there is no reference, since fewer than two other grids reached their end,
-or a number is within NEAR in a part of its interval only. With 32 rows K is judged in place of the flow,
-whose averaging cells are those of 16 rows: set after a look.
+`columns`, in all starts and steps of a size. wrong: stable, and none of these. refused: the method
+itself rejects the case. unjudged: there is no reference, since fewer than two other grids reached their end.
+With 32 rows K is judged in place of the flow, whose averaging cells are those of 16 rows: set after a look.
 """
 from collections.abc import Callable, Iterator
 from typing import Any
@@ -16,14 +14,12 @@ import numpy as np
 import pandas as pd
 
 from studies.hardcases.columns import COLUMNS, HELD, LEFT, PAIRS
-from studies.hardcases.extremes import BOXES, PROBES, ROWS, SOUND, rarefied
+from studies.hardcases.extremes import BOXES, CHESSBOARD, ROWS, SOUND, rarefied
 from studies.hardcases.printed import impulse
-from studies.hardcases.tubes import STEPS
 from studies.kit.fits import line
-from studies.kit.stats import Measured, combine, over_seeds
-from studies.kit.table import Rows, Tables, groups
+from studies.kit.stats import Measured, combine
+from studies.kit.table import Row, Rows, Tables, groups
 
-Row = dict[str, Any]
 SETTLED = 0.3           # part of the time from the shock to its return after which the ripple grows steadily
 ENOUGH = 0.65           # part of that time that a run has to last: half of what SETTLED leaves
 LEAK, FROZEN, NEAR = 1e-3, 0.1, 0.1
@@ -38,8 +34,8 @@ def derive(tables: Tables) -> Rows:
     rows: dict[str, list[Row]] = {"map": []}
     if "ripples" in tables:
         rows["ripple_growth"] = list(ripple_growth(tables["ripples"]))
-    if "high_ra" in tables and "high_ra_grid" in tables:
-        rows["high_ra_summary"] = list(high_ra_summary(tables["high_ra"], tables["high_ra_grid"]))
+    if "high_ra" in tables:
+        rows["high_ra_summary"] = list(high_ra_summary(tables["high_ra"]))
     for name, make in OF_MAP.items():
         if name in tables:
             rows["map"] += make(tables[name])
@@ -62,22 +58,14 @@ def ripple_growth(ripples: pd.DataFrame) -> Iterator[Row]:
             yield {"scale": scale, "steep": steep, "seeds": len(lines), "growth": growth, "growth_err": err}
 
 
-def high_ra_summary(limits: pd.DataFrame, grid: pd.DataFrame) -> Iterator[Row]:
-    """Geometric mean and range of the limits of Ra over starts that have one; most frequent outcome there.
-
-    Cell numbers of the fastest flow are from a power law in Ra, fitted to those of the fine grid.
-    """
-    fine = grid.dropna(subset=["cell_number"])
-    slope, constant = np.polyfit(np.log(fine.ra), np.log(fine.cell_number), 1)
+def high_ra_summary(limits: pd.DataFrame) -> Iterator[Row]:
+    """Geometric mean and range of the limits of Ra over starts that have one; most frequent outcome there."""
     for (method, step, kind), rows in groups(limits, ["method", "step", "kind"]):
         bad = rows.dropna(subset=["ra"])
-        highest = np.log(rows.ra.fillna(rows.tried))
-        cell = over_seeds(np.exp(constant + slope*highest))
         yield {
             "method": method, "step": step, "kind": kind, "seeds": len(bad),
             "ra": np.exp(np.log(bad.ra).mean()), "ra_low": bad.ra.min(), "ra_high": bad.ra.max(),
             "outcome": bad.outcome.mode().get(0, "none"),
-            "cell_number": cell.value, "cell_number_err": cell.err,
         }
 
 
@@ -147,33 +135,10 @@ def outcome(run: pd.Series, number: str, ratio: Measured) -> str:
 
 
 def of_probes(probes: pd.DataFrame) -> Iterator[Row]:
-    """Rows of the map for `probes`, numbers over known ones; a verdict holds for all of the interval."""
-    for _, run in probes.sort_values(["case", "method"]).iterrows():
-        ratio = Measured(run.measured, run.measured_err)/(run.predicted or 1.0)
-        wanted, probe = float(run.predicted != 0), PROBES[run.case]
-        difference = abs(ratio.value - wanted)
-        result = "unjudged"
-        if run.reached < 1:
-            result = "diverges"
-        elif difference + ratio.err <= NEAR:
-            result = "right"
-        elif difference - ratio.err > NEAR:
-            result = "wrong"
-        yield entry(run.case, run.method, f"L {probe.scene.L:g}", result, probe.number, *ratio, wanted)
-
-
-def of_tubes(tubes: pd.DataFrame) -> Iterator[Row]:
-    """Rows of the map for shock tubes at the usual step: ringing of v in the longest, or an early end."""
-    usual = tubes[tubes.step != min(STEPS)]
-    for (method, eta), rows in groups(usual, ["method", "eta"]):
-        place, reached = ("shock tube", method, f"eta {eta:g}"), rows.reached.min()
-        if reached < 1:
-            yield entry(*place, "diverges", PART_OF_TIME, reached)
-            continue
-        longest = rows.query("L == L.max()")
-        error, ring = longest["v_grid" if eta else "v_exact"].mean(), longest.wiggles
-        result = "right" if max(ring.mean(), error) <= NEAR else "wrong"
-        yield entry(*place, result, "ringing of v", ring.mean(), np.ptp(ring)/2, 0.0)
+    """Rows of the map for densities that alternate, of which nothing should be left."""
+    for _, run in probes.sort_values("method").iterrows():
+        result = "diverges" if run.reached < 1 else "right" if run.measured <= NEAR else "wrong"
+        yield entry(run.case, run.method, f"L {CHESSBOARD.L:g}", result, LEFT, run.measured, predicted=0.0)
 
 
 def of_trials(trials: pd.DataFrame) -> Iterator[Row]:
@@ -204,4 +169,4 @@ def needs(rows: pd.DataFrame) -> Iterator[Row]:
 
 #: table -> what makes its rows of the map
 OF_MAP: dict[str, Callable[[pd.DataFrame], Iterator[Row]]] = {
-    "hard_runs": of_runs, "probes": of_probes, "method_tubes": of_tubes, "trials": of_trials}
+    "hard_runs": of_runs, "probes": of_probes, "trials": of_trials}

@@ -10,23 +10,21 @@ from matplotlib.figure import Figure
 from studies.hardcases.cases import IN_LAYERS, TRIED
 from studies.hardcases.columns import COLUMNS
 from studies.hardcases.derive import NEAR, SPURIOUS
-from studies.hardcases.extremes import BOXES, LAYERS, PROBES, ROWS
+from studies.hardcases.extremes import ALTERNATING, BOXES, LAYERS, ROWS
 from studies.hardcases.high_ra import OFF
 from studies.hardcases.printed import impulse
-from studies.hardcases.tubes import ETAS, STEPS, exact
 from studies.kit.figure import LINES, Drawing, Drawings, figure, look
 from studies.kit.table import groups
 
-THIN_LINE: dict[str, Any] = {"color": "black", "linewidth": 0.7, "linestyle": "-", "marker": ""}
 DASHED: dict[str, Any] = {"color": "black", "linestyle": LINES[-1], "marker": ""}
 
 
-def dots(number: int, size: float = 2) -> dict[str, Any]:
+def dots(number: int, size: float) -> dict[str, Any]:
     """Style of markers without a line."""
     return {**look(number), "linestyle": "none", "markersize": size}
 
 
-CASES = (*LAYERS, *BOXES, *PROBES, *(f"shock tube eta {eta:g}" for eta in ETAS), *COLUMNS)
+CASES = (*LAYERS, *BOXES, ALTERNATING, *COLUMNS)
 MANY, PAIR = 3, 2       # least number of a method's cases, and of a case's methods, that the map shows
 LISTED = "entropy-stable"  # ends the names of methods with the entropy-stable flux
 #: limits of error/tolerance between the shades, of which the last is for runs that ended early
@@ -34,18 +32,16 @@ LEVELS, SHADES = (1.0, 5.0, 1e9), ListedColormap(["#DEEBF7", "#F5C26B", "#D55E00
 #: outcome -> what stands in place of a number
 WORDS = {"diverges": "ends", "freezes": "stops", "refused": "no", "unjudged": "?"}
 KEY = ("A cell is the worst error of all sizes, starts and steps over the error that is allowed: 1 is the "
-       "limit. Allowed is a tenth, against the finest grid, the exact answer or theory, and for the ringing "
-       "of v in shock tubes; 4 spacings for the place of a wave without viscosity, 1 for that of a front. "
-       "Lightest: right by all that is asked. ends: a run ended early. stops: the flow came to rest. no: the "
-       "method refuses. ?: nothing to judge by. Empty: not tried. Right of the line: with the entropy-stable "
-       "flux. Methods tried in one or two cases are in map.csv.")
+       "limit. Allowed is a tenth, against the finest grid, the exact answer or theory; 4 spacings for the "
+       "place of a wave without viscosity, 1 for that of a front. Lightest: right by all that is asked. "
+       "ends: a run ended early. stops: the flow came to rest. no: the method refuses. ?: nothing to judge "
+       "by. Empty: not tried. Right of the line: with the entropy-stable flux. Methods tried in one or two "
+       "cases are in map.csv.")
 
 
 def judged(rows: pd.DataFrame) -> pd.DataFrame:
-    """Rows of the map's cases with `error`, over the tolerance (infinite where a run ended early), its
-    `shade` (-1: none), and one case for each viscosity of the tube."""
-    tube = rows.case.where(rows.case != "shock tube", rows.case + " " + rows.variant)
-    rows = rows.assign(case=tube)[tube.isin(CASES)]
+    """Rows of the map with `error`, over the tolerance (infinite where a run ended early), its
+    `shade` (-1: none)."""
     known = rows.case.map({name: column.within for name, column in COLUMNS.items()})
     allowed = np.where(rows.number == "speed/c", SPURIOUS, known.fillna(NEAR + rows.measured_err))
     error: pd.Series = (rows.measured - rows.predicted).abs()/allowed
@@ -129,43 +125,6 @@ def band(axes: Any, values: pd.Series, time: pd.Series, number: int, label: str)
     axes.fill_between(of_seeds.index, of_seeds["min"], of_seeds["max"], color=style["color"], alpha=0.2)
 
 
-ALL = (*IN_LAYERS, "spam")
-SHIFT = 0.6             # vertical distance between the densities of two methods
-
-
-def shock_methods(rows: pd.DataFrame, profiles: pd.DataFrame) -> Figure:
-    """Densities, one method above the other, without viscosity, with little, with that of smooth particles.
-
-    Of the shorter step: what ends with it is not the step's fault.
-    """
-    page, all_axes = figure(1, len(ETAS), width=4.0, height=4.9)
-    for axes, eta in zip(all_axes, ETAS):
-        here = f"step != {max(STEPS)} and abs(eta - {eta}) < 1e-8 and seed == 1"
-        densities(axes, profiles.query(here), rows.query(here).sort_values("L"))
-        axes.set(title=rf"$\eta = k = {eta:g}$", xlabel="distance from the diaphragm / $L$",
-                 xlim=(-0.8, 1.0), ylim=(-0.1, SHIFT*(len(ALL) - 1) + 1.15), yticks=[])
-    all_axes[0].set_ylabel("density, methods one above the other")
-    page.suptitle("Without friction methods ring or end behind a shock; with enough of it all are right\n"
-                  "Sod's tube at $t = 0.4 L$, no artificial viscosity; thin: exact, frictionless")
-    return page
-
-
-def densities(axes: Any, profiles: pd.DataFrame, rows: pd.DataFrame) -> None:
-    """Plot the density of each method's longest tube, or write when this run ended."""
-    for number, method in enumerate(ALL):
-        up, profile = SHIFT*number, profiles[profiles.method == method]
-        reached = rows.reached[rows.method == method]
-        if len(profile):
-            L = profile.L.iloc[0]
-            rho, _, _ = exact(L, (profile.x.to_numpy() + 1)*L)
-            axes.plot(profile.x, up + rho, **THIN_LINE)
-            axes.plot(profile.x, up + profile.rho, **dots(number))
-            axes.text(0.98, up + 0.09, f"{method}, $L$ = {L:g}", ha="right", va="top", fontsize=8)
-        elif len(reached):
-            words = f"{method}:\nended at {reached.iloc[-1]:.2g} of the time"
-            axes.text(0.98, up + 0.2, words, ha="right", fontsize=8)
-
-
 BINS = 4                # of Ra per decade
 #: kind of limit -> shift from the method's line, style of its markers
 LIMITS: dict[str, tuple[float, dict]] = {"wrong": (0.3, {"markerfacecolor": "white"}), "ends": (-0.3, {})}
@@ -213,5 +172,4 @@ def fates(axes: Any, rows: pd.DataFrame, limits: pd.DataFrame, number: int) -> N
 figures = Drawings(
     Drawing("map", ("map",), chart),
     Drawing("high_ra", ("high_ra_trials", "high_ra_summary"), highest),
-    Drawing("shocks", ("ripples",), shocks),
-    Drawing("shock_methods", ("method_tubes", "method_tube_profiles"), shock_methods))
+    Drawing("shocks", ("ripples",), shocks))

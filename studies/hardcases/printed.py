@@ -1,4 +1,4 @@
-"""Smooth particles in the squares of KHP95's Fig. 10, in the shocked interface of Fig. 11, in Sod's tube.
+"""Smooth particles in the squares of KHP95's Fig. 10 and in the shocked interface of Fig. 11.
 
 Squares: rolls and pairs of 2500 particles between temperatures 10 and 0.5. KHP95 print Ra 350 000 for eta =
 k = 0.8 (ideal gas) and 0.4 (dense fluid). The gas has this Ra with alpha = 1, and 67 150 with its own alpha =
@@ -21,7 +21,7 @@ from continuum.exact.riemann import GasState, middle, shock_speed
 from continuum.fluid import IdealGas
 from continuum.scene import RayleighBenard, Walls
 from particles.limits import step_limit
-from particles.observe import Grid, Smoothed, fields_at
+from particles.observe import Grid, Smoothed
 from particles.run import STUDIES, Divergence, Plan, run
 from particles.smooth.spam import Spam
 from particles.walls.mirror import Copied, Mirror, Odd
@@ -29,10 +29,8 @@ from particles.walls.periodic import periodic
 from particles.weights import Lucy
 from studies.build.measure import Snapshot, at_end, turns
 from studies.build.names import START_ENERGY
-from studies.build.setting import Ready
-from studies.build.spam import FRICTIONLESS, Variant, at_rest, fluid
+from studies.build.spam import FRICTIONLESS, Variant, at_rest
 from studies.hardcases.extremes import falls
-from studies.hardcases.tubes import DENSE, EOS, HEIGHT, THIN, Tubes, centres
 from studies.kit.case import Case, Outcome, Report
 
 
@@ -205,43 +203,3 @@ class Interface(Case):
                 break
             rows[-1] |= zip(("height", "amplitude"), ripple(state[0], state[1], light, width))
         return Outcome({"ripples": rows})
-
-
-# --- Sod's tube ---------------------------------------------------------------------------------------------
-
-MASS = 9/16                     # of a particle: there is one per unit of area on average
-ROWS = {DENSE: 12, THIN: 4}     # columns are then 0.75 and 2 apart, and fit if L is a multiple of 3
-SHIFT = 0.05                    # largest shift over the cell: a perfect lattice keeps its rows in such a flow
-SKIN = 1.5                      # of neighbour lists: at the diaphragm particles reach full speed in a step
-
-
-def in_tubes(weight: Any, scene: Tubes, seed: int) -> Ready:
-    """Smooth particles in Sod's tubes, with a step that divides the time. weight : a class of weights."""
-    start = tube(scene.half, seed)
-    method = fluid(weight.of(h=3.0), (scene.width, HEIGHT), EOS, scene.law, m=MASS, skin=SKIN)
-    steps = round(scene.time/(STUDIES*step_limit(method, start[4]))) + 1
-    return Ready(method, start, scene.time/steps)
-
-
-def tube(L: float, seed: int) -> np.ndarray:
-    """State (5, n) of both tubes at the start. L : half of the length of a tube."""
-    rng, gases = np.random.default_rng(seed), []
-    for gas, left in ((DENSE, -L), (THIN, L)):
-        counts = round(2*L*HEIGHT*gas.rho/MASS/ROWS[gas]), ROWS[gas]
-        cell = 2*L/counts[0], HEIGHT/counts[1]
-        x = jittered(counts, cell, (left, -HEIGHT/2), SHIFT, rng).T
-        box = np.array([4*L, HEIGHT])
-        gases.append(at_rest((x + box/2) % box - box/2, EOS.cv*gas.P/gas.rho))
-    return np.concatenate(gases, axis=1)
-
-
-def smoothed(scene: Tubes, method: Spam, state: np.ndarray) -> np.ndarray:
-    """Smoothed rho, v, P (3, n), means over the height and over the tube and its mirror image."""
-    sums, state, _ = method.look(state)
-    x = centres(scene.half)
-    y, both = np.arange(HEIGHT) + 0.5 - HEIGHT/2, []
-    for sign in (1, -1):
-        at = fields_at(sums, state, *np.meshgrid(sign*x, y))
-        fields = np.array([at.rho, sign*at.vx, at.rho*at.e/EOS.cv])
-        both.append(fields.mean(axis=1))
-    return np.mean(both, axis=0)

@@ -191,12 +191,6 @@ def tiled(form: GridForm, scene: Any, seed: int) -> Ready:
     return form.ready(box, first=block(start))
 
 
-def at_limit(variant: Any, scene: Any, seed: int) -> Ready:
-    """Set a method up with the longest step that is stable at the start."""
-    made = variant.ready(scene, seed)
-    return made._replace(dt=made.limit)     # type: ignore[no-any-return]
-
-
 def hurried(variant: Any, scene: Any, seed: int, **places: Any) -> Ready:
     """Set a method up with its usual step, or with that for the fastest flow to come, if shorter."""
     made, swift = (variant.ready(one, seed, **places) for one in (scene, Swift(scene)))

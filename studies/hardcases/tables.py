@@ -1,29 +1,16 @@
 """The tables of the study: lengths in spacings, masses of particles or points; `_err` 95 % half widths."""
 from studies.kit.table import Table
 
-TUBE = "method eta step L seed"
-
-MEAN_FLOW = ("K of the flow of the last third: velocities averaged over 4 x 4 spacings", "epsilon/m")
-STEP = {"step": ("step over that at the limit of stability", "")}
-
 TABLES = (
     Table.of("squares", "eos weight ra seed", "alpha rolls begun flow ratio ratio_err shared",
              about="Particles in the square box of KHP95's Fig. 10 at the end.",
              means={"flow": ("K of the mean flow", "epsilon/m"),
                     "ratio": ("median of second over first neighbour distance", "")}),
-    Table.of("method_tubes", TUBE, "rho_exact v_exact P_exact rho_grid v_grid P_grid wiggles reached",
-             means=STEP, about="Sod's shock tube by one method, at the end."),
-    Table.of("method_tube_profiles", f"{TUBE} x", "rho v P", large=True,
-             digits=dict.fromkeys(("x", "rho", "v", "P"), ".5g"), about="A place of such a tube.",
-             means=STEP | {"x": ("distance from the diaphragm", "L")}),
     Table.of("ripples", "scale steep seed time", "height amplitude",
              about="An instant of an interface that a shock runs over [KHP95, Fig. 11]."),
     Table.of("ripple_growth", "scale steep", "seeds growth growth_err",
              about="The growth of such ripples, means over seeds.",
              means={"growth": ("growth rate over that of theory", "")}),
-    Table.of("high_ra_grid", "ra rows", "k cell_number reached",
-             about="A run of the fine grid at high Ra.",
-             means={"cell_number": ("cell number v a/nu of the fastest flow at the end, a of 16 rows", "")}),
     Table.of("high_ra_trials", "method step seed ra", "k over reached",
              about="A run of the search for the highest Ra."),
     Table.of("high_ra", "method step seed kind", "ra ra_err tried outcome",
@@ -32,17 +19,16 @@ TABLES = (
                     "ra": ("Ra from which on runs are so; none if they are nowhere. Its error is half of the "
                            "interval between two trials", ""),
                     "outcome": ("of the first bad run", "")}),
-    Table.of("high_ra_summary", "method step kind",
-             "ra ra_low ra_high seeds outcome cell_number cell_number_err",
+    Table.of("high_ra_summary", "method step kind", "ra ra_low ra_high seeds outcome",
              about="The same over seeds, means of logarithms.",
              means={"kind": ("wrong or ends", ""), "ra": ("Ra from which on runs are so", ""),
-                    "outcome": ("what most runs do there", ""),
-                    "cell_number": ("cell number at that Ra, or at the highest Ra tried", "")}),
+                    "outcome": ("what most runs do there", "")}),
     Table.of("hard_runs", "case method rows", "k flow mass_drift k_start flow_start reached refused",
-             about="A hard case by one method.", means={"flow": MEAN_FLOW}),
-    Table.of("probes", "case method", "predicted measured measured_err reached",
-             about="A number that is known, by one method.",
-             means={"measured": ("shear layer: rate in 1/t0; other: over the start", "")}),
+             about="A hard case by one method.", means={
+                 "flow": ("K of the flow of the last third: velocities averaged over 4 x 4 spacings",
+                          "epsilon/m")}),
+    Table.of("probes", "case method", "measured reached", about="Densities that alternate, by one method.",
+             means={"measured": ("what is left of them, over the start", "")}),
     Table.of("trials", "case method rows seed step",
              "measured rho_exact v_exact P_exact wiggles plateau switched halved limited reached refused",
              about="A case whose answer is known, without viscosity, by one method.",

@@ -3,7 +3,6 @@
 Errors are relative; `_err`: half of the 95 % interval; low, high: its ends.
 """
 from collections.abc import Iterator
-from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -19,8 +18,6 @@ RUNS = Table.of("runs", f"{RIDE} seed quantity", "error steps", means=STREAM,
                 about="A run to the end of a scene; no error where it diverged.")
 SECONDS = Table.of("seconds", RIDE, "step_s step_s_err setup_s setup_s_err", about="CPU seconds of a step.",
                    means=STREAM | {"step_s": ("CPU seconds of a step of all points", "s")})
-POINTS = Table.of("points", f"{SERIES} rows", "seeds error error_err cpu_s cpu_s_err", means=STREAM,
-                  about="Error against CPU seconds, means over seeds; no row where one diverged.")
 NEEDED = Table.of("needed", SERIES, "reached cpu_s low high rows order least", means=STREAM | {
     "reached": ("yes; by order: beyond the rows that ran; at most: the coarsest is below already; no", ""),
     "cpu_s": ("CPU seconds to an error of 1 %", "s"), "order": ("of the error between the last two", ""),
@@ -33,7 +30,7 @@ CROSSINGS = Table.of("crossings", "scene quantity rival", "moving stream low hig
     "slowest": ("their seconds over the rival's, at rest", ""),
     "fastest": ("the same in the fastest stream; 0 where the rival does not come to 1 %", "")},
     about="From which stream on points that move (moving-delaunay) are cheaper than one that stands still.")
-TABLES = (RUNS, SECONDS, POINTS, NEEDED, CROSSINGS)
+TABLES = (RUNS, SECONDS, NEEDED, CROSSINGS)
 
 WANTED = 0.01
 MOVING = "moving-delaunay"
@@ -46,20 +43,21 @@ def derive(tables: Tables) -> Rows:
     """Derived rows of the study."""
     if "runs" not in tables or "seconds" not in tables:
         return {}
-    points = pd.DataFrame(means(tables["runs"], tables["seconds"]), columns=list(POINTS.columns))
+    points = means(tables["runs"], tables["seconds"])
     needs = [dict(zip(NEEDED.key, key)) | needed(group.sort_values("rows"))
              for key, group in groups(points, list(NEEDED.key))]
-    rows: dict[str, list[Any]] = {"points": points.to_dict("records"), "needed": needs}
-    return rows | {"crossings": list(crossings(pd.DataFrame(needs, columns=list(NEEDED.columns))))}
+    return {"needed": needs, "crossings": list(crossings(pd.DataFrame(needs, columns=list(NEEDED.columns))))}
 
 
-def means(runs: pd.DataFrame, seconds: pd.DataFrame) -> Iterator[Row]:
-    """Errors and seconds of runs, means over seeds."""
+def means(runs: pd.DataFrame, seconds: pd.DataFrame) -> pd.DataFrame:
+    """Errors and seconds of runs, means over seeds; no row where one diverged."""
+    point, values = [*NEEDED.key, "rows"], ["error", "cpu_s"]
     rows = runs.merge(seconds, on=list(SECONDS.key))
     rows = rows.assign(cpu_s=rows.setup_s + rows.steps*rows.step_s, error=rows.error.abs(),
                        cpu_s_err=np.hypot(rows.setup_s_err, rows.steps*rows.step_s_err))
-    lost = rows.error.isna().groupby([rows[name] for name in POINTS.key]).transform("any")
-    yield from seed_means(rows[~lost], POINTS.key, ["error", "cpu_s"])
+    lost = rows.error.isna().groupby([rows[name] for name in point]).transform("any")
+    errors = [f"{name}_err" for name in values]
+    return pd.DataFrame(seed_means(rows[~lost], point, values), columns=[*point, *values, *errors])
 
 
 def needed(group: pd.DataFrame) -> Row:
