@@ -1,8 +1,7 @@
 """Dissipative particles: which step keeps the temperature? Velocity-Verlet's error grows with the step."""
 from examples import picture, sized
-from particles.dissipative.dpd import Dpd
+from particles.dissipative.dpd import Dpd, kinetic_temperature
 from particles.dissipative.integrators import GrootWarren65, Shardlow, VelocityVerlet
-from particles.dissipative.observe import kinetic_temperature
 from particles.run import Plan, run
 from studies.kit.figure import errorbar, figure, save
 from studies.kit.stats import mean

@@ -1,4 +1,4 @@
-"""Dissipative particles: the slow twin, momentum, threads, restarts, temperatures."""
+"""Dissipative particles: double sums, momentum, threads, restarts, temperatures."""
 import itertools
 from dataclasses import replace
 
@@ -6,69 +6,43 @@ import numpy as np
 import pytest
 from crowd import goes_on_bitwise
 
-from particles.dissipative.dpd import Dpd
-from particles.dissipative.edpd import Edpd
-from particles.dissipative.integrators import (
-    GrootWarren,
-    GrootWarren65,
-    KickDriftFrictionDriftKick,
-    Shardlow,
-    VelocityVerlet,
-)
-from particles.dissipative.observe import (
+from particles.dissipative.dpd import (
+    Dpd,
     configurational_temperature,
     forces_squared,
     kinetic_temperature,
     laplacian,
-    pressure,
 )
-from particles.dissipative.pairs3d import Uniform
+from particles.dissipative.edpd import Edpd
+from particles.dissipative.integrators import KickDriftFrictionDriftKick, Shardlow
 from particles.integrators import TwoStep
-from particles.noise import uniform_of_pair
 from particles.run import Plan, Run, run
 from particles.threads import Threads
-from studies.noise.thermal import energy, internal_temperature, relative_variance
+from studies.noise.cases import GOOD
+from studies.noise.dissipative import AtRest, energy, internal_temperature, neighbours, special
 
-INTEGRATORS = (TwoStep, GrootWarren, GrootWarren65, VelocityVerlet, Shardlow, KickDriftFrictionDriftKick)
+INTEGRATORS = (TwoStep, *GOOD)
 BOXES = ((5.0, 4.0), (3.5, 3.0, 4.0))
 
 
-def sums_of(method, state, step=0, dt=0.02, threads=1):
-    """The pair sums as a run has them at some step, particles in the order in which they are given."""
-    sums = method.start(state.shape[1], Threads(threads))
-    sums.resume(Run(state=state, ids=np.arange(state.shape[1]), step=step))
-    sums.dt = dt
+def sums_of(method, state):
+    """The pair sums as a run has them at its first step, particles in the order in which they are given."""
+    sums = method.start(state.shape[1], Threads(1))
+    sums.resume(Run(state=state, ids=np.arange(state.shape[1])))
+    sums.dt = 0.02
     return sums
 
 
-def forces(method, state, step=0, dt=0.02, threads=1):
+def forces(method, state):
     d, out = method.d, np.empty_like(state[:method.d])
-    sums_of(method, state, step, dt, threads).forces(state[:d], state[d:2*d], out)
+    sums_of(method, state).forces(state[:d], state[d:2*d], out)
     return out
 
 
-def plain_forces(method, x: np.ndarray, v: np.ndarray, dt: float, step: int) -> np.ndarray:
-    """Forces (d, n) of Groot & Warren [1997], by the nearest image."""
-    n, box = x.shape[1], np.array(method.box)[:, None, None]
-    d, u = (q[:, :, None] - q[:, None, :] for q in (x, v))
-    d -= box*np.round(d/box)
-    r = np.sqrt((d**2).sum(axis=0)) + np.eye(n)*2
-    w = np.maximum(1 - r, 0)
-    zeta = np.zeros((n, n))
-    for i, j in np.argwhere(w > 0) if method.kT else ():
-        zeta[i, j] = uniform_of_pair(method.noise.seed, step, i, j)
-    along = (d*u).sum(axis=0)/r
-    size = method.a*w - method.gamma*w**2*along + np.sqrt(2*method.gamma*method.kT/dt)*w*zeta
-    return (size*d/r).sum(axis=2)
-
-
-@pytest.mark.parametrize("box", BOXES)
-def test_forces_equal_those_of_the_plain_twin(box):
-    """To round-off of a sum of some ten forces of up to 100."""
-    method = Dpd(box=box, noise=Uniform(3))
-    state, step, dt = method.random_start(3.0), 7, 0.02
-    expected = plain_forces(method, state[:method.d], state[method.d:2*method.d], dt, step + 1)
-    assert np.abs(forces(method, state, step, dt) - expected).max() < 1e-11
+@pytest.mark.parametrize("d", [2, 3])
+def test_forces_equal_those_of_double_sums(d):
+    """To round-off of a sum of some ten forces."""
+    assert special(d) < 1e-14
 
 
 def momentum(sums, state):
@@ -119,23 +93,20 @@ def test_noise_balances_friction(integrator):
 @pytest.mark.parametrize("integrator", [Shardlow, KickDriftFrictionDriftKick])
 def test_temperatures_agree_at_rest_and_pressure_is_that_of_print(integrator):
     """At 648 particles and 300 records: 5 sigma of the scatter; the study has the numbers."""
-    method = Dpd(box=(6.0, 6.0, 6.0), integrator=integrator)
-    series = {"kinetic": kinetic_temperature, "configurational": configurational_temperature, "P": pressure}
-    start = run(method, method.random_start(3.0), Plan(dt=0.02, steps=300)).state
-    done = run(method, start, Plan(dt=0.02, steps=1500, every=5, series=series))
-    assert np.mean(done.series["kinetic"]) == pytest.approx(1, abs=0.03)
-    assert np.mean(done.series["configurational"]) == pytest.approx(1, abs=0.03)
-    assert np.mean(done.series["P"]) == pytest.approx(23.64, abs=0.15)
+    row, = AtRest(integrator=integrator, side=6.0, time=30.0).measure(print)
+    assert (row["kinetic"], row["configurational"]) == pytest.approx((1, 1), abs=0.03)
+    assert row["P"] == pytest.approx(23.64, abs=0.15)
 
 
 def test_configurational_temperature_is_the_laplacian():
-    """Against second differences of the plain force."""
+    """Against second differences of the double sum."""
     method = Dpd(box=BOXES[1], gamma=0.0, kT=0.0)
     state = method.random_start(1.0)
     sums, x, step = sums_of(method, state), state[:3], 1e-6
 
     def force(x):
-        return plain_forces(method, x, 0*x, 1.0, 0)
+        w, e = neighbours(x, method.box)
+        return method.a*(w*e).sum(axis=2)
 
     trace = 0.0
     for axis, i in itertools.product(range(3), range(x.shape[1])):
@@ -168,7 +139,7 @@ def test_without_friction_kicks_and_drifts_can_be_taken_back():
     ({"a": np.nan}, "a must be zero or positive, got nan"),
     ({"skin": -0.1}, "skin must be zero or positive"),
     ({"box": (10.0, 2.9, 10.0)}, "sides of at least 3"), ({"box": (10.0,)}, "two or three sides"),
-    ({"noise": Uniform(-1)}, "the seed must be a whole number")])
+    ({"seed": -1}, "the seed must be a whole number")])
 def test_bad_fluids(wrong, message):
     with pytest.raises(ValueError, match=message):
         Dpd(**{"box": (4.0, 4.0, 4.0), **wrong})
@@ -179,7 +150,7 @@ def test_bad_fluids(wrong, message):
 def test_a_step_beyond_the_stability_limit():
     method = Dpd(box=(4.0, 4.0, 4.0))
     with pytest.raises(ValueError,
-                       match=r"dt = 0\.15 is above the stability limit 0\.138 of these particles"):
+                       match=r"dt = 0\.15 is above the stability limit 0\.138"):
         run(method, method.random_start(3.0), Plan(dt=0.15, steps=1))
 
 
@@ -214,8 +185,9 @@ def test_friction_noise_and_conduction_keep_energy_and_momentum(box):
 def test_kinetic_and_internal_temperatures_become_one():
     """1/T = <1/T_i>, <e^2>/<e>^2 - 1 = 1/(C + 1), within five times what 60 records of 648 scatter by."""
     method = Edpd(box=(6.0, 6.0, 6.0), a=0.0, **WARM)
-    plan = Plan(dt=0.02, steps=1500, every=20, series={"v": kinetic_temperature, "e": internal_temperature,
-                                                        "var": relative_variance})
+    plan = Plan(dt=0.02, steps=1500, every=20, series={
+        "v": kinetic_temperature, "e": internal_temperature,
+        "variance": lambda sums, state: state[-1].var()/state[-1].mean()**2})
     kinetic, internal, variance = (np.mean(x[15:]) for x in run(method, unlike(method), plan).series.values())
     assert kinetic == pytest.approx(internal, rel=0.02)
     assert variance*(method.C + 1) == pytest.approx(1, rel=0.05)

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 
 from continuum.fluid import ConstEta, IdealGas
+from particles.integral import fluctuating
 from particles.integral.dih import Mixed
 from particles.integral.edge_makers import MAKERS
 from particles.integral.edges import between_plates
@@ -15,8 +16,7 @@ from particles.limits import jacobian, limit_of
 from particles.run import Plan, run
 from particles.threads import Threads
 from particles.weights import Lucy
-from studies.noise import covariance
-from studies.noise.covariance import layer_noise, noise, steady, transport, waves
+from studies.noise.covariance import Step, layer_noise, noise, steady, steady_of_steps, waves
 
 
 def gas(share: float = 0.1, k: float = 1e-3, **more) -> Thermal:
@@ -105,8 +105,12 @@ def test_kicks_have_the_covariance_of_the_matrices(share):
             sums.kicks(start, beta, dt, columns[-1])
             normals.ravel()[number] = 0
     B = np.stack([column.ravel() for column in columns], axis=1)
-    of_p, of_e = (1e-3*part.Q for part in transport(method.edges, share, 0.3, 0.1, 0.4, 1.0))
-    expected = (1 + beta**2)*dt*noise(method.edges.V, of_p, of_e).toarray()
+    edges = method.edges
+    of_p = fluctuating.mixed(fluctuating.stress(edges, 0.3, 0.1, 1.0),
+                             fluctuating.friction(edges, 0.3, 0.1, 1.0), share)
+    of_e = fluctuating.mixed(fluctuating.heat(edges, 0.4, 1.0),
+                             fluctuating.conduction(edges, 0.4, 1.0), share)
+    expected = 1e-3*(1 + beta**2)*dt*noise(edges.V, of_p.Q, of_e.Q).toarray()
     assert B@B.T == pytest.approx(expected, abs=1e-13*expected.max())
 
 
@@ -127,7 +131,8 @@ def test_a_random_stress_heats_its_own_point_by_its_work():
     assert heating == pytest.approx(expected, abs=1e-13*abs(expected[11]))
 
 
-def test_three_stages_in_time_are_those_of_the_lyapunov_solve():
+def test_covariances_of_three_stages_err_by_third_order():
+    """Of sound, from what a step makes of one unit of state, of W_A, of W_B."""
     J, B = np.array([[0.0, 0.4], [-0.4, -0.1]]), np.array([[0.0, 0.0], [0.0, np.sqrt(0.2)]])
 
     class Sums:
@@ -139,17 +144,18 @@ def test_three_stages_in_time_are_those_of_the_lyapunov_solve():
         def kicks(self, y, beta, dt, out):
             out[:] = (B@(self.halves[0] + beta*self.halves[1])*np.sqrt(dt)).reshape(out.shape)
 
-    def stepped(start, halves):
+    def stepped(start, halves, dt):
         sums, y = Sums(), start.reshape(2, 1).copy()
         sums.halves = halves
-        ThreeStage((2, 1), None).step(sums, y, 0.3)
+        ThreeStage((2, 1), None).step(sums, y, dt)
         return y.ravel()
 
-    step, unit, none = covariance.three_stage(J, B@B.T, 0.3), np.eye(4).reshape(4, 2, 2), np.zeros(2)
-    assert np.stack([stepped(x, np.zeros((2, 2))) for x in np.eye(2)], axis=1) == pytest.approx(step.A,
-                                                                                                abs=1e-15)
-    noises = np.stack([stepped(none, halves) for halves in unit], axis=1)
-    assert noises@noises.T == pytest.approx(step.Q, abs=1e-15)
+    errors = []
+    for dt in (0.1, 0.05):
+        A = np.stack([stepped(x, np.zeros((2, 2)), dt) for x in np.eye(2)], axis=1)
+        noises = np.stack([stepped(np.zeros(2), one, dt) for one in np.eye(4).reshape(4, 2, 2)], axis=1)
+        errors.append(np.abs(steady_of_steps(Step(A, noises@noises.T)) - np.eye(2)).max())
+    assert np.log2(errors[0]/errors[1]) == pytest.approx(3, abs=0.05)
 
 
 def test_plates_have_the_noise_of_their_friction_and_heat():

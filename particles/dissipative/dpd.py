@@ -7,19 +7,19 @@ state (3 d, n) is x, v and the force at the end of the last step, which integrat
 """
 from dataclasses import dataclass
 from math import inf
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from particles.dissipative import pairs3d
 from particles.dissipative.integrators import GrootWarren65
-from particles.dissipative.pairs3d import Force, Law, Silent, Uniform
+from particles.dissipative.pairs3d import Force, Law
 from particles.dissipative.periodic3d import Images
 from particles.fields import Fields
-from particles.limits import limit_of
 from particles.method import Sums
 from particles.neighbours import u32, u64
 from particles.noise import check_seed
+from particles.pairs import pair_term
 from particles.threads import Threads
 
 SORT = 20       # steps between sorts of the particles by cells
@@ -29,7 +29,7 @@ SORT = 20       # steps between sorts of the particles by cells
 class Dpd:
     """A fluid of dissipative particles in a periodic box (width, height[, depth]) centred on the origin.
 
-    a, gamma, kT : repulsion, friction, temperature. noise : `Uniform(seed)`. skin : of the neighbour lists.
+    a, gamma, kT : repulsion, friction, temperature. seed : of the noise. skin : of the neighbour lists.
     integrator : one of `integrators`, or `TwoStep` for RR98 Eqs 40, 41. Raises ValueError: a parameter is out
     of range.
     """
@@ -37,12 +37,12 @@ class Dpd:
     a: float = 25.0
     gamma: float = 4.5
     kT: float = 1.0
-    noise: Any = Uniform(1)  # noqa: RUF009 (immutable)
+    seed: int = 1
     integrator: type = GrootWarren65
     skin: float = 0.3
 
     def __post_init__(self):
-        check_seed(self.noise.seed)
+        check_seed(self.seed)
         for name in ("a", "gamma", "kT", "skin"):
             if not 0 <= getattr(self, name) < inf:
                 raise ValueError(f"{name} must be zero or positive, got {getattr(self, name)}")
@@ -67,10 +67,10 @@ class Dpd:
         """Amplitudes of the forces for a step dt: sigma^2 dt = 2 gamma kT    [Español & Warren 1995]"""
         return Law(self.a, self.gamma, float(np.sqrt(2*self.gamma*self.kT/dt)))
 
-    def longest_step(self, n: int) -> float:
+    def limit(self, start: np.ndarray) -> float:
         """The smaller of 2/omega (velocity-Verlet) and 2/Lambda (forward friction), where all neighbours move
         against a particle: omega^2 = 2 rho V a/d, Lambda = 2 rho V gamma <w^2>/d, V that of the unit ball."""
-        rho_V = n/self.volume*{2: np.pi, 3: 4*np.pi/3}[self.d]
+        rho_V = start.shape[1]/self.volume*{2: np.pi, 3: 4*np.pi/3}[self.d]
         w2 = 2/((self.d + 1)*(self.d + 2))       # mean over the ball: d int (1 - s)^2 s^(d - 1) ds
         omega, friction = np.sqrt(2*rho_V*self.a/self.d), 2*rho_V*self.gamma*w2/self.d
         return float(min(2/max(omega, 1e-300), 2/max(friction, 1e-300)))
@@ -100,11 +100,6 @@ class Dpd:
         return Forces(self, n, threads)
 
 
-@limit_of.register
-def _(method: Dpd, start: np.ndarray) -> float:
-    return np.inf       # `Forces.make_ready` checks the step, with a message of its own
-
-
 class Forces(Sums):
     """Pair sums of n particles, for the time loop and the integrators."""
 
@@ -128,17 +123,13 @@ class Forces(Sums):
             self.images.anchor = now.anchor = None      # lists are made anew before the first step
 
     def make_ready(self, now: Any, dt: float) -> None:
-        """Sort particles every SORT steps; make the first force. Raises ValueError: dt is above the limit."""
+        """Sort particles every SORT steps; make the first force."""
         d, self.now, self.dt = self.places, now, dt
-        if now.step == 0 and not dt <= self.method.longest_step(self.n):
-            limit = self.method.longest_step(self.n)
-            raise ValueError(f"dt = {dt:g} is above the stability limit {limit:.3g} of these particles: 0.02 "
-                             "to 0.04 is usual at a = 25, rho = 3")
         if now.step % SORT == 0:
             order = self.images.order(now.state[:d])
             now.state[:], now.ids[:], self.images.anchor = now.state[:, order], now.ids[order], None
         if now.step == 0:
-            self._force(self.method.law(dt), self.method.noise, 0, *now.state[:3*d].reshape(3, d, -1))
+            self._force(self.method.law(dt), 0, *now.state[:3*d].reshape(3, d, -1))
 
     def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
         """Every finite state is valid."""
@@ -159,18 +150,17 @@ class Forces(Sums):
 
     def forces(self, x: np.ndarray, v: np.ndarray, out: np.ndarray) -> None:
         """Forces (d, n) at x, v with the noise of this step."""
-        self._force(self.method.law(self.dt), self.method.noise, self.now.step + 1, x, v, out)
+        self._force(self.method.law(self.dt), self.now.step + 1, x, v, out)
 
     def soft(self, x: np.ndarray, out: np.ndarray) -> None:
         """Forces (d, n) of repulsion only."""
-        law = self.method.law(self.dt)._replace(gamma=0.0)
-        self._force(law, Silent(0), 0, x, x, out)
+        self._force(Law(self.method.a, 0.0, 0.0), 0, x, x, out)
 
     def rub(self, x: np.ndarray, v: np.ndarray, dt: float) -> None:
         """Apply friction and noise to v for a time dt."""
         method = self.method
         self._records(x, v)
-        pairs3d.rub_pairs(self.n, method.law(dt), method.noise, self.now.step + 1, dt, self.particle,
+        pairs3d.rub_pairs(self.n, method.law(dt), method.seed, self.now.step + 1, dt, self.particle,
                           self.images.lists, self.taken)
         for component, name in zip(v, ("vx", "vy", "vz")):
             component[:] = self.particle[name][:self.n]
@@ -178,17 +168,18 @@ class Forces(Sums):
     def over_pairs(self, term: Any, state: np.ndarray, columns: int) -> np.ndarray:
         """Sums (n, columns) of a term over the pairs of a state, without noise."""
         d, out = self.places, np.empty((self.n, columns))
-        self._sum(term, self.method.law(self.dt), Silent(0), 0, state[:d], state[d:2*d], out)
+        law = self.method.law(self.dt)._replace(sigma=0.0)
+        self._sum(term, law, 0, state[:d], state[d:2*d], out)
         return out
 
-    def _force(self, law, noise, step, x, v, out):
-        self._sum(Force(), law, noise, step, x, v, self.total)
+    def _force(self, law, step, x, v, out):
+        self._sum(Force(), law, step, x, v, self.total)
         out[:] = self.total[:, :self.places].T
 
-    def _sum(self, term, law, noise, step, x, v, out):
+    def _sum(self, term, law, step, x, v, out):
         self._records(x, v)
-        self.threads(pairs3d.sum_pairs, self.n, term, law, noise, step, self.particle, self.images.lists,
-                     self.taken, out)
+        self.threads(pairs3d.sum_pairs, self.n, term, law, self.method.seed, step, self.particle,
+                     self.images.lists, self.taken, out)
 
     def _records(self, x, v):
         """Write records of particles and ghosts at x, v; make new lists if the old ones may miss a pair."""
@@ -200,3 +191,53 @@ class Forces(Sums):
         if len(self.particle) != points:
             self.particle = np.empty(points, pairs3d.Record)
         self.threads(pairs3d.record, points, x, v, self.now.ids, images.points, self.particle)
+
+
+# --- quantities of a run, from its pair sums and the state ---------------------------------------
+
+
+class Static(NamedTuple):
+    """Sums of the repulsion F: components, Laplacian of its potential, F.r."""
+    d: int
+    a: float
+
+
+@pair_term(Static, 5)
+def _(term, a, b, ab):
+    """U'' + (d - 1) U'/r = a - (d - 1) f"""
+    fx, fy, fz = ab.f*ab.dx, ab.f*ab.dy, ab.f*ab.dz
+    return fx, fy, fz, term.a - (term.d - 1)*ab.f, fx*ab.dx + fy*ab.dy + fz*ab.dz
+
+
+def static_sums(sums: Any, state: np.ndarray) -> np.ndarray:
+    """Sums (n, 5) of `Static`, computed once for all quantities of a record."""
+    if sums.seen is None:
+        sums.seen = sums.over_pairs(Static(sums.method.d, sums.method.a), state, 5)
+    return sums.seen
+
+
+def forces_squared(sums: Any, state: np.ndarray) -> float:
+    """Mean |F|^2 per particle."""
+    return float((static_sums(sums, state)[:, :3]**2).sum()/sums.n)
+
+
+def laplacian(sums: Any, state: np.ndarray) -> float:
+    """Mean Laplacian of the potential U per particle."""
+    return float(static_sums(sums, state)[:, 3].sum()/sums.n)
+
+
+def kinetic_temperature(sums: Any, state: np.ndarray) -> float:
+    """kT of the velocities."""
+    return sums.method.temperature(state)
+
+
+def configurational_temperature(sums: Any, state: np.ndarray) -> float:
+    """kT from positions, <|grad U|^2>/<lap U>, too high by 1/n    [Rugh 1997; Butler et al. 1998]"""
+    return forces_squared(sums, state)/laplacian(sums, state)
+
+
+def pressure(sums: Any, state: np.ndarray) -> float:
+    """P = [n kT + sum over pairs F.r/d]/V, kT that of the velocities."""
+    n, d = sums.n, sums.places
+    virial = static_sums(sums, state)[:, 4].sum()/2
+    return float((n*kinetic_temperature(sums, state) + virial/d)/sums.method.volume)

@@ -73,9 +73,9 @@ class Edpd(Dpd):
         """Amplitudes of repulsion only."""
         return Law(self.a, 0.0, 0.0)
 
-    def longest_step(self, n: int) -> float:
+    def limit(self, start: np.ndarray) -> float:
         """Limit of `Dpd`, where conduction counts as a friction of d kappa C."""
-        return Dpd.longest_step(replace(self, gamma=max(self.gamma, self.d*self.kappa*self.C)), n)
+        return Dpd.limit(replace(self, gamma=max(self.gamma, self.d*self.kappa*self.C)), start)
 
     def random_start(self, rho: float, seed: int = 1) -> np.ndarray:
         """State (3 d + 1, n) at random places, all temperatures kT."""
@@ -104,7 +104,7 @@ class Exchanges(Forces):
         sigma, k = np.sqrt(2*method.gamma*method.kT), method.kappa*method.C**2
         T, u, mean = np.empty(self.n), np.zeros((self.n, 3)), v
         T[ids] = e/method.C
-        term = Exchange(method.noise.seed, self.now.step + 1, dt, sigma, k, T, u)
+        term = Exchange(method.seed, self.now.step + 1, dt, sigma, k, T, u)
         for _ in range(PASSES):
             seen = np.concatenate([x, mean])
             F = self.over_pairs(term, seen, 4)[:, :d].T

@@ -3,7 +3,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from continuum.jit import generic, jit
+from continuum.jit import jit
 from particles.neighbours import u32, u64
 from particles.noise import uniform_of_pair
 from particles.pairs import pair_at, pair_term, sweep
@@ -11,32 +11,6 @@ from particles.pairs import pair_at, pair_term, sweep
 Record = np.dtype([*((name, "f8") for name in ("x", "y", "z", "vx", "vy", "vz")),
                    ("id", "u8"), ("image", "u8")])
 ROWS = 32       # rows of a block: their pairs take some 30 KB
-
-
-class Uniform(NamedTuple):
-    """zeta is uniform between -sqrt 3 and sqrt 3    [Groot & Warren 1997]"""
-    seed: int
-
-
-class Silent(NamedTuple):
-    """zeta = 0."""
-    seed: int
-
-
-@generic
-def draw(noise, step, i, j, count, zeta):
-    """Write zeta[k] of the first `count` pairs, of particles with ids i[k], j[k], in a step."""
-
-
-@draw.of(Uniform)
-def _(noise, step, i, j, count, zeta):
-    for k in range(count):
-        zeta[k] = uniform_of_pair(noise.seed, step, i[k], j[k])
-
-
-@draw.of(Silent)
-def _(noise, step, i, j, count, zeta):
-    zeta[:count] = 0.0
 
 
 class Law(NamedTuple):
@@ -86,6 +60,19 @@ def _(term, a, b, ab):
 
 
 @jit
+def draw(law, seed, step, i, j, count, zeta):
+    """Write zeta[k] of the first `count` pairs, of particles with ids i[k], j[k], in a step.
+
+    zeta is uniform between -sqrt 3 and sqrt 3    [Groot & Warren 1997]
+    """
+    if law.sigma == 0:
+        zeta[:count] = 0.0
+        return
+    for k in range(count):
+        zeta[k] = uniform_of_pair(seed, step, i[k], j[k])
+
+
+@jit
 def find_near(first, last, particle, lists, pairs):
     """Find the pairs in range of rows first..last, with r^2 in f, without a branch. Returns their number."""
     end = u64(0)
@@ -125,13 +112,13 @@ def room_for(first, last, lists, taken):
 
 
 @jit
-def sum_pairs(first, last, term, law, noise, step, particle, lists, taken, out):
+def sum_pairs(first, last, term, law, seed, step, particle, lists, taken, out):
     """out[i] = sum of the term over the pairs of row i, block by block of rows."""
     pairs = room_for(first, last, lists, taken)
     for start in range(first, last, ROWS):
         end = min(start + ROWS, last)
         count = find_near(start, end, particle, lists, pairs)
-        draw(noise, step, pairs.own, pairs.other, count, pairs.zeta)
+        draw(law, seed, step, pairs.own, pairs.other, count, pairs.zeta)
         weigh_near(law, count, pairs.zeta, pairs.f, pairs.g)
         sweep(start, end, term, particle, pairs, out)
 
@@ -147,7 +134,7 @@ def record(first, last, x, v, ids, images, particle):
 
 
 @jit
-def rub_pairs(n, law, noise, step, dt, particle, lists, taken):
+def rub_pairs(n, law, seed, step, dt, particle, lists, taken):
     """Apply friction and noise pair by pair, by implicit midpoint: keeps kT at any step    [Shardlow 2003]
 
     Relative velocity along a pair: u' = u - K (u + u') + 2 s zeta, K = gamma w^2 dt, s^2 = 2 K kT; each of
@@ -157,7 +144,7 @@ def rub_pairs(n, law, noise, step, dt, particle, lists, taken):
     for start in range(0, n, ROWS):
         end = min(start + ROWS, n)
         count = find_near(start, end, particle, lists, pairs)
-        draw(noise, step, pairs.own, pairs.other, count, pairs.zeta)
+        draw(law, seed, step, pairs.own, pairs.other, count, pairs.zeta)
         for i in range(start, end):
             a = particle[i]
             for k in range(pairs.first[i], pairs.first[i] + pairs.taken[i]):

@@ -3,12 +3,10 @@
     dx = J x dt + B dW, Q = B B^T            J C + C J^* + Q = 0                 [RR98 Eqs 20-25]
     x(t + dt) = A x(t) + noise of variance Q_dt       C = A C A^* + Q_dt                 [RR98 Eq. 40]
 
-Conserved sums (rows L with L J = 0, L Q = 0) keep their values: covariances are those at fixed sums.
-
-A layer heated from below is linearised by differences of the method's own rates, with the noise of
-`fluctuating`. Boltzmann's k is 1: covariances of linear fluctuations are proportional to it.
+Where a step conserves sums (rows L with L A = L, L Q = 0), C is the covariance at fixed sums. Covariances of
+linear fluctuations are proportional to k, which is 1 here.
 """
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -17,16 +15,14 @@ from scipy.linalg import null_space, solve_continuous_lyapunov, solve_discrete_l
 from scipy.optimize import brentq
 
 from continuum.scene import RayleighBenard
-from particles.integral import fluctuating
-from particles.integral.edges import Edges
-from particles.integral.fluctuating import Partners
+from particles.integral.fluctuating import conduction, each, friction
 from particles.integral.layer import Layer
-from particles.integral.thermal import BETAS, OLD
 from particles.limits import jacobian
 from particles.threads import Threads
 from studies.build.fixed import Scheme, layer
 from studies.kit.case import Case, Report
 from studies.kit.table import Row
+from studies.noise.partners import ETA, lattice_weights
 
 #: decay rates below this fraction of the largest |J| count as none; differences leave 1e-12
 UNDAMPED = 1e-10
@@ -45,16 +41,12 @@ def waves(columns: np.ndarray, counts: tuple[int, int], k: float) -> np.ndarray:
     return np.einsum("fxyc,x->fyc", parts, np.exp(-1j*k*x)).reshape(fields*ny, fields*ny)
 
 
-def steady(J: np.ndarray, Q: np.ndarray, conserved: np.ndarray | None = None) -> np.ndarray:
-    """C with J C + C J^* + Q = 0, at fixed rows `conserved` (q, N). ArithmeticError: a mode lasts."""
-    # columns: a basis of the states at which the conserved sums are zero
-    Z = np.eye(len(J)) if conserved is None else null_space(conserved)
-    J, Q = Z.conj().T@J@Z, Z.conj().T@Q@Z
+def steady(J: np.ndarray, Q: np.ndarray) -> np.ndarray:
+    """C with J C + C J^* + Q = 0. Raises ArithmeticError: a mode does not decay."""
     check_decay(np.linalg.eigvals(J).real, UNDAMPED*np.abs(J).max())
     C = solve_continuous_lyapunov(J, -Q)
     # iterative refinement: solve again for the residual
-    C += solve_continuous_lyapunov(J, -(Q + J@C + C@J.conj().T))
-    return Z@C@Z.conj().T
+    return C + solve_continuous_lyapunov(J, -(Q + J@C + C@J.conj().T))
 
 
 class Step(NamedTuple):
@@ -65,6 +57,7 @@ class Step(NamedTuple):
 
 def steady_of_steps(step: Step, conserved: np.ndarray | None = None) -> np.ndarray:
     """C with C = A C A^* + Q, at fixed rows `conserved`. Raises ArithmeticError: a mode does not decay."""
+    # columns: a basis of the states at which the conserved sums are zero
     Z = np.eye(len(step.A)) if conserved is None else null_space(conserved)
     A, Q = Z.conj().T@step.A@Z, Z.conj().T@step.Q@Z
     check_decay(np.abs(np.linalg.eigvals(A)) - 1, UNDAMPED)
@@ -86,48 +79,60 @@ def forward_euler(J: np.ndarray, Q: np.ndarray, dt: float) -> Step:
     return Step(np.eye(len(J)) + dt*J, dt*Q)
 
 
-def crank_nicolson(J: np.ndarray, Q: np.ndarray, dt: float) -> Step:
-    """(1 - dt J/2) x' = (1 + dt J/2) x + B dW: has the covariance of continuous time at any step."""
-    one = np.eye(len(J))
-    inverse = np.linalg.inv(one - dt/2*J)
-    return Step(inverse@(one + dt/2*J), dt*inverse@Q@inverse.conj().T)
+# --- steps of one wave ----------------------------------------------------------------------------------
 
 
-def three_stage(J: np.ndarray, Q: np.ndarray, dt: float) -> Step:
-    """Three averaged Euler steps, each with noise W_A + beta W_B of its beta: see `thermal.ThreeStage`."""
-    one = np.eye(len(J))
-    euler, A, of_A, of_B = one + dt*J, one, 0*one, 0*one
-    for old, beta in zip(OLD, BETAS, strict=True):
-        A = old*one + (1 - old)*euler@A
-        of_A, of_B = (1 - old)*(euler@of_A + one), (1 - old)*(euler@of_B + beta*one)
-    return Step(A, dt*(of_A@Q@of_A.conj().T + of_B@Q@of_B.conj().T))
+class Steps(Case, table="steps", same="wavenumber"):
+    """Kinetic temperature of one wave after many steps; dt is in eta/(rho c^2), c the isothermal speed."""
+    wavenumber: float
+    dt: tuple[float, ...]
+
+    def measure(self, report: Report) -> Iterator[Row]:
+        """One row per integrator and stable time step."""
+        for of_limit in self.dt:
+            for integrator, fluid, step, conserved in steps(self.wavenumber, of_limit*ETA):
+                try:
+                    velocity = steady_of_steps(step, conserved)[1, 1].real
+                except ArithmeticError:         # the step is too long: a mode grows
+                    continue
+                yield {"integrator": integrator, "fluid": fluid, "dt": of_limit, "velocity": velocity,
+                       "error": abs(velocity - 1)}
 
 
-INTEGRATORS: dict[str, Callable[[np.ndarray, np.ndarray, float], Step]] = {
-    "forward-euler": forward_euler, "crank-nicolson": crank_nicolson, "three-stage": three_stage}
+def steps(k: float, dt: float) -> Iterator[tuple[str, str, Step, np.ndarray | None]]:
+    """Integrator, fluid, step, conserved rows; a wave of the isothermal gas has density rho and velocity u.
+
+    Points that move by Eq. 39 have a displacement x besides. At the constant volume that is printed, x adds
+    the force 2 P grad(n dV): u' = -i s rho - 2 s^2 x - l u, with rho' = -i s u, x' = u. From rest rho =
+    -i s x, and the stiffness is (1 + 2) c_T^2; <u u> is 1.
+    """
+    s, lap = line_symbols(k)
+    l = ETA*lap
+    yield "forward-euler", "isothermal", forward_euler(*sound(s, l), dt), None
+    rates = np.array([[0, -1j*s, 0],
+                      [-1j*s, -l, -2*s*s],
+                      [0, 1, 0]])
+    old = forward_euler(rates, np.diag([0, 2*l, 0]), dt)
+    yield "eq40-eq40", "moving", old, np.array([[1, 0, 1j*s]])
+    A = old.A.copy()
+    A[2] = np.eye(3)[2] + dt*A[1]       # x' = x + dt u', the new velocity with its noise
+    noise = np.array([0, 1, dt])
+    # x moves with the new u, which changes the conserved sum rho + i s x by -i s dt u
+    yield "eq40-eq41", "moving", Step(A, np.outer(noise, noise)*2*l*dt), np.array([[1, -1j*s*dt, 1j*s]])
 
 
-# --- a gas at rest ----------------------------------------------------------------------------
+def sound(s: float, l: float) -> tuple[np.ndarray, np.ndarray]:
+    """J and Q of a wave (rho, u) of the isothermal gas; its covariance in equilibrium is 1."""
+    return np.array([[0, -1j*s], [-1j*s, -l]]), np.diag([0, 2*l])
 
 
-def transport(edges: Edges, share: float, eta: float, zeta: float, kappa: float,
-              T: Any) -> tuple[Partners, Partners]:
-    """Dissipation and noise of momenta and of energies, a share of them along edges, the rest nested."""
-    stress = fluctuating.stress(edges, eta, zeta, T)
-    heat = fluctuating.heat(edges, kappa, T**2)
-    if share == 0:
-        return stress, heat
-    friction = fluctuating.friction(edges, eta, zeta, T)
-    conduction = fluctuating.conduction(edges, kappa, T**2)
-    return fluctuating.mixed(stress, friction, share), fluctuating.mixed(heat, conduction, share)
-
-
-def noise(V: np.ndarray, of_momenta: Any, of_energies: Any) -> sparse.csr_array:
-    """Q (N, N) of densities (rho, p, eps) at rest, from Q (d n, d n) of momenta and Q (n, n) of energies."""
-    n, d = len(V), of_momenta.shape[0]//len(V)
-    per = sparse.diags_array(np.tile(1/V, 2 + d))
-    Q = sparse.block_diag([sparse.csr_array((n, n)), of_momenta, of_energies])
-    return sparse.csr_array(per@Q@per)
+def line_symbols(k: float) -> tuple[float, float]:
+    """Symbols (slope, Laplacian) of a line of unit spacing with h = 2, k and k^2 in the continuum."""
+    r, size, w = lattice_weights(2.0, 1)
+    x = r[:, 0]
+    slope = (w*np.sign(x))@np.sin(k*x)
+    laplacian = 2*w/size@(1 - np.cos(k*x))
+    return float(slope), float(laplacian)
 
 
 # --- a layer heated from below --------------------------------------------------------------------------
@@ -189,8 +194,14 @@ def layer_noise(fluid: Layer, T: np.ndarray) -> sparse.csr_array:
     def of_plate(q: np.ndarray) -> sparse.csr_array:
         values = np.tile(beyond.k*q, 2)
         return sparse.csr_array((values, (columns, rows)), shape=(n, n))
-    momenta, energies = transport(edges, 1.0, law.eta, 0.0, law.k, T)
-    friction = of_plate(2*law.eta*T_wall)
-    heat = of_plate(2*law.k*T_wall**2)
-    both = sparse.kron(sparse.eye_array(2), friction)
-    return noise(edges.V, momenta.Q + both, energies.Q + heat)
+    momenta = friction(edges, law.eta, 0.0, T).Q + each(2, of_plate(2*law.eta*T_wall))
+    energies = conduction(edges, law.k, T**2).Q + of_plate(2*law.k*T_wall**2)
+    return noise(edges.V, momenta, energies)
+
+
+def noise(V: np.ndarray, of_momenta: Any, of_energies: Any) -> sparse.csr_array:
+    """Q (N, N) of densities (rho, p, eps) at rest, from Q (d n, d n) of momenta and Q (n, n) of energies."""
+    n, d = len(V), of_momenta.shape[0]//len(V)
+    per = sparse.diags_array(np.tile(1/V, 2 + d))
+    Q = sparse.block_diag([sparse.csr_array((n, n)), of_momenta, of_energies])
+    return sparse.csr_array(per@Q@per)

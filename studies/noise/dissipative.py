@@ -1,25 +1,26 @@
-"""Dissipative particles: kT, pressure, and whether RR98's equations contain them    [RR98 Sec. III B]
+"""Dissipative particles: kT, pressure, heat, and whether RR98's equations contain them [RR98 Secs III B, V]
 
-The fluid has a = 25, rho = 3, gamma = 4.5, rc = kT = 1, unit masses, in a periodic cube.
+The fluid has a = 25, rho = 3, gamma = 4.5, rc = kT = 1, unit masses, in a periodic box.
 """
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 import numpy as np
 
-from particles.dissipative.dpd import Dpd
-from particles.dissipative.integrators import Shardlow
-from particles.dissipative.observe import (
+from particles.dissipative.dpd import (
+    Dpd,
     configurational_temperature,
     forces_squared,
     kinetic_temperature,
     laplacian,
     pressure,
 )
-from particles.dissipative.pairs3d import Uniform
+from particles.dissipative.edpd import Edpd
+from particles.dissipative.integrators import Shardlow
 from particles.noise import uniform_of_pair
 from particles.run import Plan, Run, run
 from particles.threads import Threads
+from studies.kit import fits
 from studies.kit.case import Case, Report
 from studies.kit.stats import Measured, mean, with_errors
 from studies.kit.table import Row
@@ -29,8 +30,8 @@ SETTLE = 10.0       # some twenty friction times, 1/(rho gamma int w^2/d) = 0.5,
 RECORD = 0.1        # time between records: less than any correlation time that matters
 
 
-class Fluid(Case, same="integrator side dt time seed"):
-    """Base of runs of dissipative particles: periodic cube of `side`, steps dt, `time` after settling."""
+class AtRest(Case, table="states", same="integrator side dt time seed"):
+    """kT and pressure of particles in a cube at one time step, from a run that settles before."""
     integrator: type
     dt: float = 0.02
     side: float = 8.0
@@ -42,57 +43,49 @@ class Fluid(Case, same="integrator side dt time seed"):
         steps = self.time/self.dt + SETTLE/0.02
         return 5e-7*RHO*self.side**3*steps      # records included
 
-    def method(self) -> Dpd:
-        """The particles in the cube."""
-        return Dpd(box=(self.side,)*3, noise=Uniform(self.seed), integrator=self.integrator)
+    def measure(self, report: Report) -> Iterator[Row]:
+        done = self.recorded(report, kinetic=kinetic_temperature, P=pressure,
+                             configurational=configurational_temperature)
+        yield row(done, **{name: mean(x) for name, x in done.series.items()})
 
-    def settled(self, method: Dpd) -> np.ndarray:
-        """Equilibrated state from random places, first with Shardlow's splitting, whose kT is most exact."""
-        first = replace(method, integrator=Shardlow, noise=Uniform(self.seed + 1000))
-        start = first.random_start(RHO, self.seed)
-        state = run(first, start, Plan(dt=0.02, steps=round(SETTLE/0.02))).by_id()
-        then = replace(method, noise=Uniform(self.seed + 2000))
-        return run(then, state, Plan(dt=self.dt, steps=round(SETTLE/self.dt))).by_id()
-
-    def recorded(self, method: Dpd, report: Report, **series: Callable) -> Run:
-        """A run of the equilibrated fluid with records every `RECORD`."""
+    def recorded(self, report: Report, **series: Callable) -> Run:
+        """A run of the settled fluid with records every `RECORD`."""
+        method = Dpd(box=(self.side,)*3, seed=self.seed, integrator=self.integrator)
         every = max(1, round(RECORD/self.dt))
         records = round(self.time/self.dt/every)
         plan = Plan(dt=self.dt, steps=records*every, every=every, series=series)
         return run(method, self.settled(method), plan, report)
 
-    @staticmethod
-    def row(done: Run, **measured: Measured) -> Row:
-        """Columns with the CPU time of a run, and means with their errors."""
-        return {"n": done.state.shape[1], "cpu_s": done.cpu_s, "compile_s": done.compile_s,
-                **with_errors(**measured)}
+    def settled(self, method: Dpd) -> np.ndarray:
+        """Equilibrated state from random places, first with Shardlow's splitting, whose kT is most exact."""
+        first = replace(method, integrator=Shardlow, seed=self.seed + 1000)
+        start = first.random_start(RHO, self.seed)
+        state = run(first, start, Plan(dt=0.02, steps=round(SETTLE/0.02))).by_id()
+        then = replace(method, seed=self.seed + 2000)
+        return run(then, state, Plan(dt=self.dt, steps=round(SETTLE/self.dt))).by_id()
 
 
-class AtRest(Fluid, table="states"):
-    """Kinetic and configurational kT, and pressure, at one time step."""
-
-    def measure(self, report: Report) -> Iterator[Row]:
-        done = self.recorded(self.method(), report, kinetic=kinetic_temperature, P=pressure,
-                             configurational=configurational_temperature)
-        yield self.row(done, **{name: mean(x) for name, x in done.series.items()})
-
-
-class LongRun(Fluid, table="long"):
+class LongRun(AtRest, table="long"):
     """The same from a long run; configurational kT is a ratio of means, which has no bias of 1/n.
 
-    The pressure contains rho kT with the given kT, as in Allen & Tildesley, not with the measured one.
+    The pressure contains rho kT with the given kT, 1, as in Allen & Tildesley, not with the measured one.
     """
 
     def measure(self, report: Report) -> Iterator[Row]:
-        method = self.method()
-        done = self.recorded(method, report, kinetic=kinetic_temperature, F2=forces_squared, lap=laplacian,
+        done = self.recorded(report, kinetic=kinetic_temperature, F2=forces_squared, lap=laplacian,
                              P=pressure)
         kinetic, F2, lap, P = map(np.array, done.series.values())
         ratio = F2.mean()/lap.mean()
         error = mean((F2 - ratio*lap)/lap.mean()).err
-        rho = done.state.shape[1]/method.volume
-        asked = P - rho*(kinetic - method.kT)
-        yield self.row(done, kinetic=mean(kinetic), configurational=Measured(ratio, error), P=mean(asked))
+        rho = done.state.shape[1]/self.side**3
+        yield row(done, kinetic=mean(kinetic), configurational=Measured(ratio, error),
+                  P=mean(P - rho*(kinetic - 1)))
+
+
+def row(done: Run, **measured: Measured) -> Row:
+    """Columns with the CPU time of a run, and means with their errors."""
+    return {"n": done.state.shape[1], "cpu_s": done.cpu_s, "compile_s": done.compile_s,
+            **with_errors(**measured)}
 
 
 # --- a special case of Eqs 42, 49, 51 -----------------------------------------------------------
@@ -113,36 +106,36 @@ def special(d: int, dt: float = 0.02) -> float:
     With w = 1 - r/rc, A = gamma w, 8 zeta V = 2 gamma it is Groot and Warren's; the sign of Y is arbitrary.
     """
     method = Dpd(box=(3.5,)*d)
-    state, w, e = neighbours(method)
+    state = method.random_start(RHO)
     x, v, _ = np.split(state, 3)
+    w, e = neighbours(x, method.box)
     n = x.shape[1]
     sums, forces = method.start(n, Threads(1)), np.empty_like(x)
     sums.resume(Run(state=state, ids=np.arange(n)))
     sums.dt = dt
     sums.forces(x, v, forces)
-    gamma, zeta, seed = method.gamma, method.gamma/4, method.noise.seed     # zeta times V
+    gamma, zeta, seed = method.gamma, method.gamma/4, method.seed     # zeta times V
     Y = [[uniform_of_pair(seed, 1, i, j) for j in range(n)] for i in range(n)]
-    u = v[:, :, None] - v[:, None, :]
-    along = (e*u).sum(axis=0)
+    along = (e*(v[:, :, None] - v[:, None, :])).sum(axis=0)
     noise = np.sqrt(8*method.kT*zeta/dt)*np.array(Y)
     due = (w*e*(method.a - gamma*w*along + noise)).sum(axis=2)
     return float(np.abs(forces - due).max()/np.abs(due).max())
 
 
-def neighbours(method: Dpd) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """A random state (3 d, n), weights w (n, n) by nearest images, unit vectors e_ij (d, n, n)."""
-    state, box = method.random_start(RHO), np.array(method.box)[:, None, None]
-    x = state[:method.d]
+def neighbours(x: np.ndarray, box: tuple[float, ...]) -> tuple[np.ndarray, np.ndarray]:
+    """Weights w (n, n) and unit vectors e_ij (d, n, n) of particles at x (d, n), by their nearest images."""
+    sides = np.array(box)[:, None, None]
     apart = x[:, :, None] - x[:, None, :]
-    apart -= box*np.round(apart/box)
+    apart -= sides*np.round(apart/sides)
     r = np.sqrt((apart**2).sum(axis=0))
     np.fill_diagonal(r, 2)           # no particle is its own neighbour
-    return state, np.maximum(1 - r, 0), apart/r
+    return np.maximum(1 - r, 0), apart/r
 
 
 def unmodified() -> float:
     """|Q - 2 kT Gamma|/|Q| where friction has the weight w of the noise, not w^2, and the same trace as Q."""
-    _, w, e = neighbours(Dpd(box=(3.0, 3.0, 3.0)))
+    method = Dpd(box=(3.0, 3.0, 3.0))
+    w, e = neighbours(method.random_start(RHO)[:3], method.box)
     Q, friction = blocks(w**2, e), blocks(w, e)
     due = friction*np.trace(Q)/np.trace(friction)
     return float(np.abs(Q - due).max()/np.abs(Q).max())
@@ -154,3 +147,70 @@ def blocks(weight: np.ndarray, e: np.ndarray) -> np.ndarray:
     pairs = weight*e[:, None]*e[None]                       # (d, d, n, n)
     own = pairs.sum(axis=3)[..., None]*np.eye(n)
     return (own - pairs).transpose(0, 2, 1, 3).reshape(d*n, d*n)
+
+
+# --- particles with energies of their own: the entropy of each is C ln e ------------------------
+
+GIVEN = 10.0                # diffusivity of temperature by the printed formula
+BOX = (12.0, 3.0, 3.0)
+K = 2*np.pi/BOX[0]
+MANY, FEW = 1e4, 50.0       # heat capacities of particles whose T hardly fluctuates, and whose T does
+
+
+def kappa_of(diffusivity: float, C: float, rho: float = RHO) -> float:
+    """kappa from diffusivity = 2 pi rho C kappa/315    [Li et al. 2014, Eq. 15, and LAMMPS's manual]"""
+    return 315*diffusivity/(2*np.pi*rho*C)
+
+
+class Shared(Case, table="shared", same="a dt"):
+    """A closed fluid whose halves start at different temperatures; means over the second half of the run."""
+    time: float
+    a: float = 0.0
+    dt: float = 0.02
+
+    def measure(self, report: Report) -> Iterator[Row]:
+        method = Edpd(box=(6.0, 6.0, 6.0), a=self.a, C=FEW, kappa=kappa_of(0.1, FEW))
+        start = method.random_start(RHO)
+        start[-1] *= np.where(start[0] > 0, 1.5, 0.5)
+        series = {"energy": energy, "kinetic": kinetic_temperature, "internal": internal_temperature}
+        plan = Plan(dt=self.dt, steps=round(self.time/self.dt), every=10, series=series)
+        done = run(method, start, plan, report)
+        total, kinetic, internal = map(np.array, done.series.values())
+        late = slice(len(total)//2, None)
+        yield {"drift": np.abs(total/total[0] - 1).max(),
+               **with_errors(ratio=mean((kinetic/internal)[late]))}
+
+
+def energy(sums, state: np.ndarray) -> float:
+    """Kinetic and internal energy of all particles."""
+    return float((sums.velocity(state)**2).sum()/2 + state[-1].sum())
+
+
+def internal_temperature(sums, state: np.ndarray) -> float:
+    """1/<1/T_i>, which is T in equilibrium; <T_i> is T (1 + 1/C)    [Avalos & Mackie 1997]"""
+    return float(1/np.mean(sums.method.C/state[-1]))
+
+
+class Conduction(Case, table="conduction", same="rho a seed"):
+    """Diffusivity of temperature from the decay of a wave along x, to a third or less."""
+    rho: float
+    a: float
+    seed: int
+
+    def measure(self, report: Report) -> Iterator[Row]:
+        method = Edpd(box=BOX, a=self.a, C=MANY, kappa=kappa_of(GIVEN, MANY, self.rho),
+                      seed=self.seed)
+        start = method.random_start(self.rho, self.seed)
+        start[-1] *= 1 + 0.1*np.sin(K*start[0])
+        plan = Plan(dt=0.002, steps=500, every=10, series={"wave": wave})    # dt resolves what pairs exchange
+        done = run(method, start, plan, report)
+        t, size = np.array(done.times), np.array(done.series["wave"])
+        late = (t > t[-1]/10) & (size > 0.01)
+        rate = fits.line(t[late], np.log(size[late])).slope.value
+        yield {"given": GIVEN, "n": start.shape[1], "diffusivity": -rate/K**2}
+
+
+def wave(sums, state: np.ndarray) -> float:
+    """Amplitude of the wave of T, without the mean of T: particles' random places would add a part of it."""
+    T, shape = state[-1]/sums.method.C, np.sin(K*state[0])
+    return float(np.sum((T - T.mean())*shape)/np.sum(shape**2))

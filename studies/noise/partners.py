@@ -6,20 +6,23 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 import numpy as np
+from scipy import sparse
 
 from particles.integral import fluctuating
 from particles.integral.edge_makers import delaunay, renormalised
 from particles.integral.edges import Edges
 from particles.integral.fluctuating import Partners, mismatch
+from particles.integral.interpolants import W
 from particles.integral.points import lattice, random
 from particles.weights import Lucy, WendlandC2
 from studies.build.setting import Disorder
+from studies.build.symbols import neighbours
 from studies.kit.case import Case, Report
 from studies.kit.table import Row
-from studies.noise.covariance import crank_nicolson, steady_of_steps
 
 ETA, ZETA, KAPPA = 0.3, 0.1, 0.4
 KT = 0.7
+WAVES = 32          # length of the longest wave in spacings
 
 # --- partners ---------------------------------------------------------------------------------
 
@@ -67,6 +70,78 @@ def sums(edges: Edges, pair: Partners) -> float:
     return float(np.abs(of_all@pair.B).max()/abs(pair.B).max())
 
 
+# --- printed noise ----------------------------------------------------------------------------
+
+
+class PrintedWaves(Case, table="printed", same="equation term reading d h"):
+    """Variance of printed noise over its due, 2 kT Gamma of Eq. 37 or 38, on a lattice; T = 0.7.
+
+    term : "eta" (momentum across k), "zeta" (along k), "kappa". reading : of the bracket, "doubled", pi_ij +
+    pi_ji (Eq. 35), or "single", pi_ij (Eq. 22). h = 1.5 in 1D, 1.2 in 2D: nearest neighbours.
+    """
+    equation: int
+    term: str
+    reading: str
+    d: int
+    h: float
+
+    @property
+    def bulk(self) -> float:
+        """Factor of the zeta term's variance: twice as large in Eq. 23 as in Eq. 42."""
+        return 2.0 if self.equation == 23 else 1.0
+
+    def measure(self, report: Report) -> Iterator[Row]:
+        breadth = 2*int(np.ceil(self.h)) + 1
+        points = lattice((WAVES, *[breadth]*(self.d - 1)))
+        edges = renormalised(points, Lucy.of(h=self.h, d=self.d))
+        pair, twice = self.noise(edges)
+        components = pair.Gamma.shape[0]//edges.n
+        direction = np.eye(components)[1 if self.term == "eta" else 0]
+        for k in 2*np.pi/WAVES*np.arange(1, WAVES//2):
+            wave = np.kron(direction, np.exp(1j*k*points.x[:, 0]))
+            ratio = form(pair.Q, wave)/(twice*form(pair.Gamma, wave))
+            yield {"wavenumber": k, "ratio": ratio, "predicted": self.predicted(k)}
+
+    def noise(self, edges: Edges) -> tuple[Partners, float]:
+        """The printed noise with its dissipation, and the factor 2 kT (momenta) or 2 k T^2 (energies)."""
+        doubled = self.reading == "doubled"
+        if self.term == "kappa":
+            of25 = self.equation == 25
+            return fluctuating.printed_heat(edges, KAPPA, 1.0, KT, doubled=doubled, of25=of25), 2*KT**2
+        eta, zeta = (ETA, 0.0) if self.term == "eta" else (0.0, ETA)
+        return fluctuating.printed_stress(edges, eta, zeta, KT, doubled=doubled, bulk=self.bulk), 2*KT
+
+    def predicted(self, k: float) -> float:
+        """Ratio by lattice sums: c^2 sum w^2 (1 - cos k.r) g/(sum w e_x sin k.r)^2, c = 2 if doubled, else 1.
+
+        g = 2 [1 + (1 - 2/3) e_y^2] for eta, e_x^2 for zeta (2 e_x^2 of Eq. 23), 1/T for kappa (2 of Eq. 25).
+        """
+        r, size, w = lattice_weights(self.h, self.d)
+        along, last = r[:, 0]/size, r[:, -1]/size
+        phase = k*r[:, 0]
+        heat = 2.0 if self.equation == 25 else 1/KT
+        g = {"eta": 2*(1 + last**2/3),
+             "zeta": self.bulk*along**2,
+             "kappa": heat}[self.term]
+        slope = (w*along)@np.sin(phase)
+        variance = (w**2*g)@(1 - np.cos(phase))
+        return float((4 if self.reading == "doubled" else 1)*variance/slope**2)
+
+
+def lattice_weights(h: float, d: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """r (m, d) to a point's neighbours on the unit lattice, |r| (m,), Lucy's weights with sum w |r| = d."""
+    weight = Lucy.of(h=h, d=d)
+    r = neighbours(weight, d)
+    size = np.sqrt((r**2).sum(axis=1))
+    w = W(weight, size)
+    return r, size, w*(d/(w@size))
+
+
+def form(M: sparse.csr_array, wave: np.ndarray) -> float:
+    """wave^* M wave."""
+    return float((wave.conj()@(M@wave)).real)
+
+
 # --- formulas ---------------------------------------------------------------------------------
 
 
@@ -101,26 +176,21 @@ def half_spacing() -> float:
 def half_step() -> float:
     """<u u> of a decaying u driven by increments of unit variance at any step: at dt/2 over that at dt."""
     def variance(dt: float) -> float:
-        step = crank_nicolson(-np.eye(1), dt*np.eye(1), dt)     # dt X is noise of variance dt per time
-        return float(steady_of_steps(step)[0, 0])
+        decay, kick = (1 - dt/2)/(1 + dt/2), dt/(1 + dt/2)
+        return kick**2/(1 - decay**2)
     return variance(0.5)/variance(1.0)
 
 
-def trace_2d() -> float:
-    """Variance of the trace of X in 2D, over d^2: noise of a bulk viscosity that the fluid does not have."""
-    tensor = fluctuating.shear(2, 2/3).reshape(2, 2, 2, 2)
-    return float(np.einsum("aacc->", tensor))/4
-
-
-def viscosity(rho: float = 3.0, gamma: float = 4.5) -> float:
+def viscosity(rho: float = 3.0) -> float:
     """Bulk viscosity that Eq. 42, doubled, gives the noise of dissipative particles, over that of friction.
 
     RR98's W = c w has c = 15/pi, as int W r dV = 3. Noise, with W dV = c w V and the volume V = 1/rho which
     Eq. 42 lacks: 4 c^2 w^2 2 kT zeta V^3 = 2 gamma kT w^2. Friction, by the moments of Eq. 51: zeta = (5/3)
-    eta, eta = 2 pi gamma rho^2/1575.
+    eta, eta = 2 pi gamma rho^2/1575. The strength gamma of both cancels.
     """
-    noise = gamma*rho**3/(2*15/np.pi)**2
-    return noise/(5/3*2*np.pi*gamma*rho**2/1575)
+    noise = rho**3/(2*15/np.pi)**2
+    friction = 5/3*2*np.pi*rho**2/1575
+    return noise/friction
 
 
 def viscosity_single() -> float:

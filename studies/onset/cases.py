@@ -1,21 +1,19 @@
-"""Which runs there are: linear theory, growth rates of each solver, rolls in time, energies near onset.
+"""Cases of the study onset: linear theory, growth rates, rolls in time, steady energies near onset.
 
-Nothing depends on L. Size `quick` takes a minute, `paper` six on two cores; `fine` (twelve) has other numbers
-of particles.
+No result depends on L. Size `quick` takes a minute, `paper` six on two cores. `fine` has more numbers of
+particles and takes twelve.
 """
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import chain, product
 
-from continuum.fluid import ConstEta, ConstNu, IdealGas, VanDerWaals
+from continuum.fluid import ConstNu, VanDerWaals
 from continuum.scene import RayleighBenard, Walls
 from studies.build.spam import PRINTED, VARIANTS
 from studies.kit.case import Case
 from studies.onset.rates import Branch, GridGrowth, LinearTheory
 from studies.onset.runs import LINES, GrowthRun, OnsetEnergies, SpamGrowth
 
-PR = 2.0            # of linear theory; heat moves isobarically in the gas, whose nu = kappa makes 2 of it
-DIFFERENCES = (1.0, 0.5, 0.25, 0.1)
 NEAR = (1500.0, 1600.0, 1650.0, 1700.0, 1750.0, 1800.0, 1900.0)
 NEAR_SQUARE = (4700.0, 4900.0, 5000.0, 5100.0, 5300.0)
 GRIDS = (16, 24, 32, 48, 64)
@@ -30,25 +28,21 @@ KE = 4e-4           # of rolls of finite energy
 #: scenes, whose Ra is set by the case
 LAYER = RayleighBenard(ra=1700.0)
 SQUARE = replace(LAYER, aspect=1.0, sides=Walls())
-#: of the other law and of a small difference of temperature
+#: with the other transport law, and with a small difference of temperature
 OTHERS = (replace(LAYER, transport=ConstNu), replace(LAYER, T_hot=1.05, T_cold=0.95))
 #: along branches, from rest: the first tell the law of the amplitude
 ARCS = (0.002, 0.002, 0.004, 0.008, 0.016, 0.032, 0.064, *8*(0.1,))
-THEORY = LinearTheory(ras=tuple(sorted({*NEAR, *STRONG})), pr=PR)
 
 
-def growth(sizes: tuple[int, ...], differences: Sequence[float]) -> Iterator[GridGrowth]:
-    """The gas in the square; of all kinds, at all temperature differences, in KHP95's layer."""
+def growth(sizes: tuple[int, ...]) -> Iterator[GridGrowth]:
+    """Growth rates of the gas in the square and in layers."""
     yield GridGrowth(scene=SQUARE, sizes=sizes, ras=NEAR_SQUARE)
-    for eos, law in product((IdealGas(), VanDerWaals()), (ConstEta, ConstNu)):
-        layer = replace(LAYER, eos=eos, transport=law)
-        for dT in differences:
-            scene = replace(layer, T_hot=1 + dT/2, T_cold=1 - dT/2)
-            yield GridGrowth(scene=scene, sizes=sizes, ras=NEAR)
+    for layer in (LAYER, *OTHERS, replace(LAYER, eos=VanDerWaals())):
+        yield GridGrowth(scene=layer, sizes=sizes, ras=NEAR)
 
 
 def particles(rows: int, seeds: Sequence[int] = (1, 2, 3), every: int = 1) -> Iterator[SpamGrowth]:
-    """Rolls among particles."""
+    """Growth rates of rolls among particles."""
     for variant, ras in PARTICLES.items():
         for ra, seed in product(ras[::every], seeds):
             yield SpamGrowth(scene=replace(LAYER, ra=ra, L=float(rows)), variant=variant, seed=seed, ke=KE)
@@ -57,7 +51,6 @@ def particles(rows: int, seeds: Sequence[int] = (1, 2, 3), every: int = 1) -> It
 def cases(size: str) -> list[Case]:
     """`quick` has coarse grids and one seed; `fine` other numbers of particles besides."""
     quick = size == "quick"
-    grids, differences = ((12, 16, 24), (1.0, 0.5, 0.25)) if quick else (GRIDS, DIFFERENCES)
     lines, shares = ((12, 16, 24), LINES[0.5][1::2]) if quick else ((30, 40, 50, 60), SHARES)
     energies = (OnsetEnergies(scene=box, rows=rows, shares=shares)
                 for rows, box in product(lines, (LAYER, SQUARE)))
@@ -71,4 +64,5 @@ def cases(size: str) -> list[Case]:
     boxes = product((0.71, 1.0), (1.0, 2.0))      # Pr, width
     branches = ([Branch(pr=1.0, width=2.0, functions=8, steps=ARCS[:3])] if quick else
                 [Branch(pr=pr, width=width, functions=16, steps=ARCS) for pr, width in boxes])
-    return [THEORY, *growth(grids, differences), *energies, *others, *strong, *chain(*rolls), *branches]
+    return [LinearTheory(), *growth((12, 16, 24) if quick else GRIDS), *energies, *others, *strong,
+            *chain(*rolls), *branches]

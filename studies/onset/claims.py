@@ -1,7 +1,7 @@
 """Claims of KHP95 on critical Rayleigh numbers, judged by the study `onset`.
 
-A quantity of the table critical_ra is a place, what differs from the ideal gas with constant eta and dT = 1,
-and in brackets how it was found: "ra_c periodic aspect 2, const-nu (growth rates)".
+A quantity of the table critical_ra has three parts: the box, how the gas differs from the ideal one with
+constant eta and dT = 1, and in brackets how it was found: "ra_c periodic aspect 2, const-nu (growth rates)".
 """
 from collections.abc import Callable
 from functools import partial
@@ -14,26 +14,26 @@ from studies.kit.stats import Measured
 from studies.kit.table import Tables
 
 LAYER, SQUARE, INFINITE = "ra_c periodic aspect 2", "ra_c square conducting", "ra_c infinite layer rigid"
-GROWTH, LINE, LINE_L2 = " (growth rates)", " (K line)", " (K line, L^-2 extrapolated)"
+GROWTH, LINE_L2 = " (growth rates)", " (K line, L^-2 extrapolated)"
 
 
 def linear(place: str) -> Value:
-    """Of linear theory."""
+    """Critical Ra of linear theory."""
     return one("critical_ra", "value", err="err", method="linear", quantity=place)
 
 
 def of_gas(quantity: str) -> Value:
-    """Of the compressible gas."""
+    """Critical Ra of the compressible gas."""
     return one("critical_ra", "value", err="err", method="compressible", quantity=quantity)
 
 
 def deviation(differs: str = "", how: str = GROWTH) -> Value:
-    """Ra_c of the gas over that of the Boussinesq fluid in the same box, less 1."""
+    """Relative difference of the gas's Ra_c from that of the Boussinesq fluid in the same box."""
     return of_gas(f"{LAYER}{differs}{how}")/linear(LAYER) - 1
 
 
 def bracket(how: str) -> Value:
-    """Product of the deviations of both transport choices, with the sum of errors."""
+    """Product of the deviations of constant eta and of constant nu, with the sum of errors."""
     def product(tables: Tables) -> Measured:
         eta, nu = deviation("", how)(tables), deviation(", const-nu", how)(tables)
         err = abs(eta.value)*nu.err + abs(nu.value)*eta.err + eta.err*nu.err
@@ -43,7 +43,7 @@ def bracket(how: str) -> Value:
 
 
 def twice(name: str, printed: str, value: Callable[[str], Value], words: str, **more: Any) -> list[Claim]:
-    """Of zeros of lines, which is the paper's procedure, and of growth rates, which is a better one."""
+    """A statement judged by zeros of lines, the paper's procedure, and by growth rates, a better one."""
     asked = partial(Claim, source="KHP95 Sec. IV", **more)
     return [asked(id=f"khp95-{name}", printed=printed, value=value(LINE_L2),
                   statement=f"{words}, zeros of lines of K, the paper's procedure"),

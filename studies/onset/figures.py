@@ -18,7 +18,7 @@ ZERO = BLACK | {"linewidth": 0.6, "linestyle": "-"}
 
 
 def line(energies: pd.DataFrame, lines: pd.DataFrame, critical: pd.DataFrame) -> Figure:
-    """K against Ra^-1/2 on KHP95's grids, its lines, what is left; where they and growth rates put Ra_c."""
+    """K over Ra^-1/2 on KHP95's grids with lines, what is left of it; Ra_c by lines and by growth rates."""
     energies = energies.query(GAS)
     page = Figure(figsize=(11.2, 5.2), layout="constrained")
     panels = page.subplot_mosaic([["K", "zeros"], ["rest", "zeros"]], height_ratios=(3, 1))
@@ -40,7 +40,7 @@ def line(energies: pd.DataFrame, lines: pd.DataFrame, critical: pd.DataFrame) ->
 
 
 def one_line(upper: Axes, lower: Axes, points: pd.DataFrame, at: Any, number: int) -> None:
-    """K of one grid with its line; below, what is left, in per cent of the largest K."""
+    """K of one grid with its line; below, K less the line, in per cent of the largest K."""
     name, style = f"L = {at.resolution:.0f} cells", look(number) | {"linestyle": "none"}
     if at.resolution == inf:
         name, style = r"$L \to \infty$", style | {"color": "black"}
@@ -53,7 +53,7 @@ def one_line(upper: Axes, lower: Axes, points: pd.DataFrame, at: Any, number: in
 
 
 def zeros(axes: Axes, critical: pd.DataFrame) -> None:
-    """Ra_c of lines of each reach and of growth rates; the interval of a line, alike at all L, once."""
+    """Ra_c by lines of each reach and by growth rates; intervals, alike at all L, only at the limit."""
     shown = critical.query(f"{GAS} and resolution >= 24 and (way == 'operator' or way == 'line' and "
                            "(resolution < @inf or quantity.str.contains('extrapolated')))")
     series = shown.sort_values("resolution").groupby(["way", "reach"])

@@ -1,13 +1,12 @@
-"""Growth rates of the weakest rolls: of linear theory, and of the gas's grid from its rates, linearised.
+"""Growth rates of the weakest rolls: linear theory, and the rates of the gas's grid, linearised.
 
-Over a fluid at rest between periodic sides a disturbance that varies as cos(kx) and sin(kx) keeps doing so:
-the rates are then a matrix of a few numbers a row of the grid, and sigma is its largest eigenvalue. A step in
-time turns it into another growth rate, but where sigma = 0, at onset, it stays 0.
+Between periodic sides a disturbance of a fluid at rest that varies as cos(kx) and sin(kx) keeps this form.
+The rates are then a matrix with a few numbers a row of the grid, and the growth rate sigma is its largest
+eigenvalue. Steps in time are left out: they change sigma, but not the Ra where it is 0.
 """
-from dataclasses import dataclass, replace
+from collections.abc import Iterator
+from dataclasses import replace
 from itertools import product
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -15,20 +14,21 @@ from continuum.gas import newton
 from continuum.gas.fields import block, initial
 from continuum.gas.ghosts import FluxForm, box_of
 from continuum.gas.loop import rates
-from continuum.linear import DEGREE, PlateKind, critical, critical_ra, growth_rate
+from continuum.linear import DEGREE, PlateKind, critical, critical_ra
 from continuum.scene import RayleighBenard, Walls
 from continuum.spectral.branch import branch
 from studies.build.names import scene_columns
-from studies.kit.case import Case, Outcome, Report
+from studies.kit.case import Case, Report
+from studies.kit.table import Row
 
 STEP = 1e-5     # of the differences of the rates
-WEAKEST = {"ke_start": 0.0, "seed": 0}      # columns of rolls without energy
 
 
 def matrix(scene: RayleighBenard, rows: int, step: float) -> np.ndarray:
-    """Slopes of the gas's rates between amplitudes of rolls, by differences of the rates.
+    """Matrix of d(rate of an amplitude)/d(amplitude), by differences of the gas's rates.
 
-    On KHP95's grid: rho in cells, v and e at nodes, those of the plates at rest.
+    An amplitude is that of one wave of a field in one row of KHP95's grid: rho in a row of cells, v and e in
+    a row of nodes between the plates.
     """
     S, box = block(initial(scene, rows, 0.0)), box_of(scene, rows)
     columns = S.shape[2] - 2
@@ -56,7 +56,10 @@ def matrix(scene: RayleighBenard, rows: int, step: float) -> np.ndarray:
 
 
 def compressible(scene: RayleighBenard, rows: int) -> tuple[float, float]:
-    """Of the gas on KHP95's grid, and what another step makes of it; between walls from its sparse matrix."""
+    """Growth rate of the gas on KHP95's grid, and its error: what differences of another step change.
+
+    Between four walls it is that of the grid's sparse matrix.
+    """
     unit = scene.L/scene.free_fall
     if isinstance(scene.sides, Walls):
         return unit*newton.growth_rate(scene, rows), 1e-8
@@ -64,81 +67,56 @@ def compressible(scene: RayleighBenard, rows: int) -> tuple[float, float]:
     return float(unit*sigma), float(unit*abs(sigma - other))
 
 
-def point(method: str, scene: RayleighBenard, resolution: float, variant: str = "") -> dict[str, Any]:
-    """Columns that all rows share; a Boussinesq fluid has no equation of state."""
-    known = {**scene_columns(scene), "dT": scene.dT/scene.T_mean}
-    known |= {"method": method, "variant": variant, "resolution": float(resolution)}
-    if method == "linear":
-        known |= {"eos": "", "transport": "", "dT": 0.0}
-    return known
+def point(method: str, scene: RayleighBenard, resolution: float, variant: str = "") -> Row:
+    """Columns that all rows share."""
+    return {**scene_columns(scene), "dT": scene.dT/scene.T_mean,
+            "method": method, "variant": variant, "resolution": float(resolution)}
 
 
-@dataclass(frozen=True, kw_only=True)
-class LinearTheory(Case):
-    """Critical Rayleigh numbers, each with what fewer trial functions change, and growth rates."""
-    ras: tuple[float, ...]
-    pr: float
+class LinearTheory(Case, table="critical_ra"):
+    """Critical Rayleigh numbers of a Boussinesq fluid; err: what four trial functions fewer change."""
 
-    def run(self, report: Report, folder: Path) -> Outcome:
-        rows = []
-        for ra in self.ras:
-            at = point("linear", RayleighBenard(ra=ra, pr=self.pr), np.inf) | WEAKEST
-            sigma = growth_rate(ra=ra, pr=self.pr, k=np.pi)
-            rows.append(at | {"way": "eigenvalue", "sigma": sigma, "err": 0.0})
-        onsets = [self.onset("ra_c infinite layer rigid", critical(PlateKind.RIGID).k, "infinite"),
-                  self.onset("ra_c periodic aspect 2", np.pi, "periodic")]
-        return Outcome({"growth_rates": rows, "critical_ra": onsets})
+    def measure(self, report: Report) -> Iterator[Row]:
+        yield self.onset("ra_c infinite layer rigid", critical(PlateKind.RIGID).k, "infinite")
+        yield self.onset("ra_c periodic aspect 2", np.pi, "periodic")
 
-    def onset(self, quantity: str, k: float, sides: str) -> dict[str, Any]:
-        """Row of `critical_ra`."""
+    def onset(self, quantity: str, k: float, sides: str) -> Row:
+        """Row for rolls of wave number k, in 1/height."""
         value, other = (critical_ra(k, PlateKind.RIGID, degree) for degree in (DEGREE, DEGREE - 4))
         at = point("linear", RayleighBenard(ra=value), np.inf)
         at.pop("ra")
-        return {**at, "sides": sides, "quantity": quantity, "value": value, "err": abs(value - other),
+        at |= {"eos": "", "transport": "", "dT": 0.0, "sides": sides}       # a Boussinesq fluid has none
+        return {**at, "quantity": quantity, "value": value, "err": abs(value - other),
                 "way": "eigenvalue", "reach": 0.0, "ke_start": 0.0}
 
 
-@dataclass(frozen=True, kw_only=True)
-class GridGrowth(Case):
-    """Growth rates of the gas's grid, from its own rates at some Ra."""
+class GridGrowth(Case, table="growth_rates"):
+    """Growth rates of the weakest rolls on grids of several sizes, at several Ra."""
     scene: RayleighBenard
     sizes: tuple[int, ...]
     ras: tuple[float, ...]
 
-    @property
-    def cost(self) -> float:
-        return len(self.ras)*sum(1e-5*rows**2.5 for rows in self.sizes) + 1
-
-    def run(self, report: Report, folder: Path) -> Outcome:
-        rows = []
+    def measure(self, report: Report) -> Iterator[Row]:
         for ra, size in product(self.ras, self.sizes):
             scene = replace(self.scene, ra=ra)
-            at = point("compressible", scene, size) | WEAKEST
             sigma, err = compressible(scene, size)
-            rows.append(at | {"way": "operator", "sigma": sigma, "err": err})
-        return Outcome({"growth_rates": rows})
+            yield {**point("compressible", scene, size), "ke_start": 0.0, "seed": 0, "way": "operator",
+                   "sigma": sigma, "err": err}
 
 
-@dataclass(frozen=True, kw_only=True)
-class Branch(Case):
-    """Steady rolls of the Boussinesq fluid, followed from rest along their arc, beside linear theory."""
+class Branch(Case, table="branch"):
+    """Steady rolls of a Boussinesq fluid, followed along their branch from the onset on."""
     pr: float
     width: float
     functions: int
     steps: tuple[float, ...]
 
-    @property
-    def cost(self) -> float:
-        return 1e-8*self.functions**6*len(self.steps)
-
-    def run(self, report: Report, folder: Path) -> Outcome:
-        states, rows = branch(self.pr, self.functions, self.steps, self.width), list[dict[str, Any]]()
+    def measure(self, report: Report) -> Iterator[Row]:
         arcs, ra_c = np.cumsum([0.0, *self.steps]), critical_ra(2*np.pi/self.width)
-        for arc, state in zip(arcs, states):
+        states = list(branch(self.pr, self.functions, self.steps, self.width))
+        first = states[0].equations.laws.ra
+        for arc, state in zip(arcs, states, strict=True):
             ra = state.equations.laws.ra
-            first = rows[0]["ra"] if rows else ra
-            rows.append({"pr": self.pr, "width": self.width, "resolution": self.functions, "arc": float(arc),
-                         "ra": ra, "above": ra/first - 1, "ke": state.K, "nu": state.Nu,
-                         "off_linear": first/ra_c - 1})
-            report(len(rows)/len(arcs))
-        return Outcome({"branch": rows})
+            yield {"pr": self.pr, "width": self.width, "resolution": self.functions, "arc": float(arc),
+                   "ra": ra, "above": ra/first - 1, "ke": state.K, "nu": state.Nu,
+                   "off_linear": first/ra_c - 1}

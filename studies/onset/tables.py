@@ -1,8 +1,9 @@
-"""Tables of the study onset, and what follows from them: critical Rayleigh numbers from rates and from lines.
+"""Tables of the study onset, and the critical Rayleigh numbers that follow from them.
 
-Growth rates are of the velocity, per free-fall time; K in units of the scene. Every `err` is the half width
-of a 95 % interval or, of a grid, the bound that its extrapolation gives. `dT` is over the mean temperature, 0
-for Boussinesq and for limits; `resolution` is rows per height, `inf` where extrapolated.
+Ra_c is where a growth rate is zero, or where a line of K over Ra^-1/2 is zero. Growth rates are those of the
+velocity, per free-fall time. K has the units of the scene. An `err` is the half width of a 95 % interval, or
+a bound where grids are extrapolated. `dT` is divided by the mean temperature; a Boussinesq fluid has 0.
+`resolution` is the number of rows over the height, `inf` where it is extrapolated.
 """
 from collections.abc import Iterator
 from math import inf
@@ -59,12 +60,11 @@ DRAWS = 400
 
 
 def derive(tables: Tables) -> Rows:
-    """All derived rows of the study."""
+    """Rows of `critical_ra`, of `lines`, and of extrapolated `energies`."""
     critical, rows = list[Row](), dict[str, list[Row]]()
     if "growth_rates" in tables:
         critical += from_growth(tables["growth_rates"])
         critical += fine_grids(critical)
-        critical += small_differences(critical)
     if "energies" in tables:
         rows = of_energies(tables["energies"].query("resolution < @inf"))
         critical += [critical_row(line, line["ra_c"], line["err"]) for line in rows["lines"]]
@@ -72,7 +72,7 @@ def derive(tables: Tables) -> Rows:
 
 
 def of_energies(grids: pd.DataFrame) -> dict[str, list[Row]]:
-    """Energies extrapolated, and lines through those of grids and through these."""
+    """Energies extrapolated to fine grids; lines through those of each grid and through the extrapolated."""
     limits = list(extrapolated_energies(grids))
     every = pd.concat([grids, pd.DataFrame(limits, columns=grids.columns)])
     return {"energies": limits, "lines": list(all_lines(every))}
@@ -85,7 +85,7 @@ def critical_row(at: Any, value: float, err: float) -> Row:
 
 
 def quantity(at: pd.Series) -> str:
-    """The box, what differs from the usual gas, in brackets what Ra_c was found from; a grid by its rows."""
+    """Name of a critical Ra: the box, what differs from the usual gas, in brackets how it was found."""
     words = [BOX_NAMES[at.sides], *(name for name in (at.variant, at.eos, at.transport) if name not in USUAL)]
     if at.eos and at.dT != 1:
         words.append(f"dT {at.dT:g}")
@@ -102,13 +102,12 @@ def quantity(at: pd.Series) -> str:
 
 
 def several(frame: pd.DataFrame, by: str | list[str]) -> list[pd.DataFrame]:
-    """Groups with as many rows as an extrapolation takes."""
+    """Groups with at least GRIDS rows."""
     return [group for _, group in frame.groupby(by, dropna=False) if len(group) >= GRIDS]
 
 
 def from_growth(rates: pd.DataFrame) -> Iterator[Row]:
-    """Ra where sigma crosses zero, for each grid and start."""
-    rates = rates.query("method != 'linear'")
+    """Ra where the growth rate is zero, for each grid and each start."""
     rates = rates.rename(columns={"err": "sigma_err"})
     for _, runs in rates.groupby([*BY, "way", "ke_start", "resolution"], dropna=False):
         at, means = runs.iloc[0], pd.DataFrame(seed_means(runs, ["ra"], ["sigma"]))
@@ -118,7 +117,10 @@ def from_growth(rates: pd.DataFrame) -> Iterator[Row]:
 
 
 def smooth_zero(rates: pd.DataFrame) -> Measured:
-    """From the polynomial Ra(sigma) through all points; err: what the farthest changes, and that of sigma."""
+    """Zero of exact rates, from the polynomial Ra(sigma) through all of them.
+
+    The error is what the point farthest from the zero changes, and the error of sigma over its slope.
+    """
     rates = rates.sort_values("sigma", key=abs)
     ra, sigma = rates[["ra", "sigma"]].to_numpy().T
     value = interpolated(sigma, ra)
@@ -128,7 +130,7 @@ def smooth_zero(rates: pd.DataFrame) -> Measured:
 
 
 def interpolated(sigma: np.ndarray, ra: np.ndarray) -> float:
-    """Lagrange's polynomial at sigma = 0."""
+    """Lagrange's polynomial Ra(sigma) at sigma = 0."""
     total = 0.0
     for s, r in zip(sigma, ra):
         others = sigma[sigma != s]
@@ -137,10 +139,11 @@ def interpolated(sigma: np.ndarray, ra: np.ndarray) -> float:
 
 
 def nearby_zero(rates: pd.DataFrame) -> Measured:
-    """From straight lines between neighbours; of several crossings, which noise makes, the middle one.
+    """Zero of noisy rates, from straight lines between neighbours: the middle one if noise makes several.
 
-    The error is that of the same on DRAWS samples with noise like the errors, and of the bend: what a
-    parabola through the three nearest Ra changes, at most a quarter of the distance of neighbours.
+    The error has two parts. One is the scatter of this zero over DRAWS samples with noise as large as the
+    errors. The other is what a parabola through the three nearest Ra changes, but at most a quarter of the
+    distance of neighbours.
     """
     ra, sigma, err = rates[["ra", "sigma", "sigma_err"]].to_numpy().T
     value = middle_crossing(ra, sigma)
@@ -155,7 +158,7 @@ def nearby_zero(rates: pd.DataFrame) -> Measured:
 
 
 def middle_crossing(ra: np.ndarray, sigma: np.ndarray) -> float:
-    """Median of the zeros of lines between neighbours; where there is none, the end towards which it lies."""
+    """Median of the zeros of lines between neighbours; if there is none, the end that is nearer to it."""
     at = np.flatnonzero(sigma[1:]*sigma[:-1] < 0)
     if not len(at):
         return float(ra[0] if sigma.sum() > 0 else ra[-1])
@@ -164,27 +167,15 @@ def middle_crossing(ra: np.ndarray, sigma: np.ndarray) -> float:
 
 
 def fine_grids(critical: list[Row]) -> Iterator[Row]:
-    """Limit of fine grids; errors of each grid's own are added."""
-    return limits(critical, "way == 'operator'", BY, "resolution", resolution=inf)
-
-
-def small_differences(critical: list[Row]) -> Iterator[Row]:
-    """Limit dT -> 0 of the gas: even in dT, because turning the box upside down changes its sign alone."""
-    by = ["method", "eos", "transport", "sides"]
-    return limits(critical, "resolution == inf and eos != ''", by, "1/dT", own=1, dT=0.0)
-
-
-def limits(critical: list[Row], such: str, by: list[str], size: str, own: int = 3,
-           **at: float) -> Iterator[Row]:
-    """Of such rows over a size; the largest error of their own is added so many times."""
-    rows = pd.DataFrame(critical, columns=list(CRITICAL.columns)).query(such)
-    for group in several(rows, by):
-        value, err = fits.grid_limit(np.asarray(group.eval(size)), group.value)
-        yield critical_row(dict(group.iloc[0]) | at, value, err + own*group.err.max())
+    """Limits of fine grids, whose errors contain three times the largest error of a grid."""
+    grids = pd.DataFrame(critical, columns=list(CRITICAL.columns)).query("way == 'operator'")
+    for group in several(grids, BY):
+        value, err = fits.grid_limit(group.resolution, group.value)
+        yield critical_row(dict(group.iloc[0]) | {"resolution": inf}, value, err + 3*group.err.max())
 
 
 def extrapolated_energies(energies: pd.DataFrame) -> Iterator[Row]:
-    """Ra and K at each share, over three grids or more with the same rolls."""
+    """Ra and K at each share, extrapolated from three grids or more that have the same number of rolls."""
     for grids in several(energies, [*BY, "share"]):
         if grids.rolls.nunique() == 1:
             ra, ke = (fits.grid_limit(grids.resolution, grids[name]).value for name in ("ra", "ke"))
@@ -193,7 +184,10 @@ def extrapolated_energies(energies: pd.DataFrame) -> Iterator[Row]:
 
 
 def all_lines(energies: pd.DataFrame) -> Iterator[Row]:
-    """K against Ra^-1/2 for each reach: of grids, of extrapolated points, extrapolated as KHP95, Sec. V."""
+    """Lines of K over Ra^-1/2 for each reach: through each grid's points and through extrapolated points.
+
+    The third kind extrapolates lines instead of points, as KHP95 do in Sec. V.
+    """
     for share, shares in LINES.items():
         wanted = energies.share.round(6).isin(shares)
         for key, series in energies[wanted].groupby(BY, dropna=False):
@@ -206,7 +200,7 @@ def all_lines(energies: pd.DataFrame) -> Iterator[Row]:
 
 
 def straight(points: pd.DataFrame) -> Row:
-    """Least squares; err is that of (slope/intercept)^2, to first order, at 95 %."""
+    """Line by least squares, with its zero (slope/intercept)^2 and the 95 % error of this, to first order."""
     fit = fits.line(points.ra.to_numpy()**-0.5, points.ke.to_numpy())
     intercept, slope = fit.coefficients
     ra_c = (slope/intercept)**2
@@ -217,13 +211,13 @@ def straight(points: pd.DataFrame) -> Row:
 
 
 def without_grid(lines: list[Row]) -> Row:
-    """Linear in L^-2, L in cells; err: that of the lines and what the coarsest grid changes."""
+    """Lines extrapolated in L^-2; err: that of the line, and what leaving out the coarsest grid changes."""
     line, without = extrapolated(lines), extrapolated(lines[1:])
     return line | {"err": np.hypot(line["err"], line["ra_c"] - without["ra_c"])}
 
 
 def extrapolated(lines: list[Row]) -> Row:
-    """The line at L^-2 = 0; what else it has is the finest grid's."""
+    """Slope and intercept at L^-2 = 0, L in cells; other columns are the finest grid's."""
     grids = pd.DataFrame(lines)
     _, (slope, intercept) = np.polyfit(grids.resolution**-2.0, grids[["slope", "intercept"]], 1)
     return lines[-1] | {"resolution": inf, "lines": "L^-2 extrapolated", "slope": slope,
