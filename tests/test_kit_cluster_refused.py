@@ -1,4 +1,5 @@
 """What goes wrong between a study and a Dask cluster, each said in a line; no cluster is started."""
+import pickle
 import socket
 import sys
 from dataclasses import dataclass
@@ -8,7 +9,7 @@ import pytest
 
 from studies.kit import cluster, csvfile, key
 from studies.kit.case import Case, Outcome
-from studies.kit.cluster import check_scheduler, check_worker, packed, unpacked
+from studies.kit.cluster import check_scheduler, check_worker, unpacked
 from studies.kit.dispatch import THREADS
 from studies.kit.store import CannotRun
 from studies.kit.study import Study, main
@@ -92,12 +93,11 @@ def test_a_worker_that_would_compute_otherwise_is_refused(threads, environment, 
 
 
 def test_a_case_that_means_something_else_is_refused(monkeypatch):
-    sent = packed(Cube(x=2.0))
-    assert unpacked(sent, WORKER) == Cube(x=2.0)
-    other = Cube(x=2.0)
-    other.__dict__["key"] = "of other code"
+    case = Cube(x=2.0)
+    case.__dict__["key"] = "of other code"
+    sent = pickle.dumps(case)
     with pytest.raises(CannotRun, match=r"has other code than the study: Cube 2 has another key there"):
-        unpacked(packed(other), WORKER)
+        unpacked(sent, WORKER)
     monkeypatch.delattr(sys.modules[__name__], "Cube")
     with pytest.raises(CannotRun, match=r"has other code than the study .*Cube"):
         unpacked(sent, WORKER)

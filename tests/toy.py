@@ -20,7 +20,7 @@ from continuum import law
 from studies.kit.case import Case, Outcome
 from studies.kit.claim import Claim
 from studies.kit.figure import figure
-from studies.kit.study import Study, main
+from studies.kit.study import Study
 from studies.kit.table import Table
 
 def note(word, case):
@@ -58,9 +58,8 @@ def figures(tables):
 
 claim = Claim(id="grows", source="KHP95, Sec. V", statement="waves grow", at_least=-9,
               value=lambda tables: (tables["waves"].y.max(), 0.0), because="a test")
-if __name__ == "__main__":
-    main(Study(name="toy", cases=cases, figures=figures, claims=[claim],
-               tables=[Table("waves", key=["x"], columns=["x", "y"], about="a test")]))
+STUDY = Study(name="toy", cases=cases, figures=figures, claims=[claim],
+              tables=[Table("waves", key=["x"], columns=["x", "y"], about="a test")])
 '''
 
 
@@ -71,15 +70,16 @@ class Toy:
         self.folder = folder
         ignored = shutil.ignore_patterns("__pycache__")
         shutil.copytree(key.ROOT/"studies/kit", folder/"studies/kit", ignore=ignored)
-        (folder/"continuum").mkdir()
-        (folder/"studies/toy.py").write_text(STUDY)
-        (folder/"continuum/law.py").write_text(law)
-        for name in ("studies/__init__", "continuum/__init__"):
-            (folder/f"{name}.py").touch()
+        shutil.copy(key.ROOT/"studies/__main__.py", folder/"studies")
+        files = {"studies/__init__": "", "studies/toy/__init__": STUDY,
+                 "continuum/__init__": "", "continuum/law": law}
+        for name, text in files.items():
+            (folder/name).parent.mkdir(exist_ok=True)
+            (folder/f"{name}.py").write_text(text)
 
     def start(self, *words: str, **environment: str) -> subprocess.Popen:
         """The study, in a group of its own, as Ctrl-C wants it."""
-        return subprocess.Popen([sys.executable, "-m", "studies.toy", *words], cwd=self.folder, text=True,
+        return subprocess.Popen([sys.executable, "-m", "studies", "toy", *words], cwd=self.folder, text=True,
                                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True,
                                 env={**os.environ, **environment})
 

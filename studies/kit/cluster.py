@@ -4,7 +4,6 @@ The cluster shares only the code with the study, and no disk: a case is sent to 
 outcome as text. If a worker is lost, Dask gives its case to another one, as often as the scheduler allows
 (``allowed-failures``). ``make worker SCHEDULER=tcp://...`` starts a worker, for one case at a time.
 """
-import io
 import os
 import pickle
 import re
@@ -15,11 +14,10 @@ from collections.abc import Iterator
 from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
-from pkgutil import resolve_name
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from studies.kit import csvfile
-from studies.kit.case import Case, Report, file_of, module_of
+from studies.kit.case import Case, Report
 from studies.kit.dispatch import LOOK, THREADS, Bar, CaseEnd
 from studies.kit.store import CannotRun, Failure, attempt, same_code
 
@@ -65,7 +63,7 @@ class Cluster:
     def submit(self, number: int, case: Case) -> None:
         # a lambda is sent as code: the scheduler, which unpacks it, needs no copy of the repository
         future = self.client.submit(lambda *sent: import_module("studies.kit.cluster").perform(*sent),
-                                    packed(case), csvfile.versions(), pure=False)
+                                    pickle.dumps(case), csvfile.versions(), pure=False)
         self.running[future] = number, case.label
         self.bar.tell(number, 0.0)
 
@@ -106,22 +104,6 @@ def outcome(future: "Future", label: str) -> str | Failure:
         return Failure(label, message, story=str(error))
     except Exception as error:      # of the cluster: a worker returns failures of cases, it raises none
         raise CannotRun(f"{error}: {WAY_OUT}" if future.status == "error" else NO_ANSWER) from error
-
-
-class Pack(pickle.Pickler):
-    """Pickler that refers to definitions of __main__ by module name, as a worker has another __main__."""
-
-    def reducer_override(self, thing: Any) -> Any:
-        if getattr(thing, "__module__", "") == "__main__" and hasattr(thing, "__qualname__"):
-            return resolve_name, (f"{module_of(file_of('__main__'))}:{thing.__qualname__}",)
-        return NotImplemented
-
-
-def packed(case: Case) -> bytes:
-    """A case as bytes, together with its key."""
-    file, _ = io.BytesIO(), case.key
-    Pack(file).dump(case)
-    return file.getvalue()
 
 
 def perform(sent: bytes, versions: str) -> str | Failure:

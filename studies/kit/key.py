@@ -24,11 +24,16 @@ ASIDE = ("cost", "label")
 Owners = frozenset[Place]
 
 
+def is_ours(module: str) -> bool:
+    """Whether a module is in our packages."""
+    return module.partition(".")[0] in PACKAGES
+
+
 def file_of(name: str, root: Path) -> Path | None:
     """File of a module of our packages, or of a script named by its path; None for others."""
     if name.endswith(".py"):
         return Path(name)
-    if name.split(".")[0] not in PACKAGES:
+    if not is_ours(name):
         return None
     base = root.joinpath(*name.split("."))
     files = (base.with_suffix(".py"), base/"__init__.py")
