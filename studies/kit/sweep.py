@@ -10,7 +10,7 @@ from studies.kit.case import Case
 from studies.kit.cluster import Cluster, check_scheduler
 from studies.kit.dispatch import Bar, Here, Processes, Transport, dispatch
 from studies.kit.store import RESULTS, CannotRun, Failure, kept
-from studies.kit.table import Row, Rows, Table, Tables, changed, check_size, merge, read
+from studies.kit.table import SIZES, Row, Rows, Table, Tables, changed, merge, read
 
 LABELS = 3      # number of labels in the message on a label that does not exist
 GO_ON = "the same command goes on from there"
@@ -41,7 +41,8 @@ class Sweep:
     only: str = ""
 
     def __post_init__(self):
-        check_size(self.size)
+        if self.size not in SIZES:
+            raise ValueError(f"unknown size {self.size!r}: choose one of {', '.join(SIZES)}")
         if self.workers < 1:
             raise ValueError(f"workers must be at least 1, got {self.workers}: 2 uses two cores")
         check_scheduler(self.scheduler)
