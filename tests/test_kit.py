@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from studies.kit.case import Case, Outcome, word
-from studies.kit.dispatch import Bar
+from studies.kit.dispatch import Bar, tell
 from studies.kit.store import kept
 from studies.kit.study import Study
 from studies.kit.sweep import CasesFailed
@@ -191,7 +191,7 @@ def test_the_time_left_is_reckoned_from_what_is_done_since_the_start():
         bar.line._time = lambda: seconds
         bar.show()
         return str(bar.line).partition("left ")[2].split()[0]
-    bar.tell(0, 0.0)
+    tell(bar.fractions, 0, 0.0)
     assert left_at(70) == left_at(1000) == "?", "a case that has begun tells nothing"
     bar.fractions[0] = 1.0
     assert left_at(1024) == "51:12", "three times as long"

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 
 from studies.kit import csvfile
 from studies.kit.case import Case, Report
-from studies.kit.dispatch import LOOK, THREADS, Bar, CaseEnd
+from studies.kit.dispatch import LOOK, THREADS, Bar, CaseEnd, tell
 from studies.kit.store import CannotRun, Failure, attempt, same_code
 
 if TYPE_CHECKING:
@@ -46,7 +46,7 @@ class Cluster:
     """Transport with a place for each worker that is connected now. `close` abandons unfinished cases."""
 
     def __init__(self, address: str, bar: Bar):
-        self.client, self.bar = connected(address), bar
+        self.client, self.fractions = connected(address), bar.fractions
         self.running: dict[Future, tuple[int, str]] = {}
         self.complete = True        # False while there is no worker, which is reported once
 
@@ -65,7 +65,7 @@ class Cluster:
         future = self.client.submit(lambda *sent: import_module("studies.kit.cluster").perform(*sent),
                                     pickle.dumps(case), csvfile.versions(), pure=False)
         self.running[future] = number, case.label
-        self.bar.tell(number, 0.0)
+        tell(self.fractions, number, 0.0)
 
     def ready(self) -> Iterator[CaseEnd]:
         time.sleep(LOOK)
