@@ -71,13 +71,16 @@ class Study:
         """
         sweep = Sweep(study=self.name, tables=self.tables, size=size, out=out or results(size), **more)
         chosen = cases or labelled(list(self.cases(size)), sweep.only, size)
+        wanted = list({case.key: case for case in chosen}.values())
         busy = f"{self.name} runs in {shown(sweep.out)} already: let it end, or give another --out"
         with locked(sweep.folder, busy):
-            tables, failed = sweep.run(chosen)
+            failures = sweep.run(wanted)
+            tables = sweep.put(sweep.rows(wanted))
             if tables:
                 tables = sweep.put(self.derive(tables), derived=True)
-        if failed:
-            raise failed
+        if failures:
+            count = f"{len(failures)} of {len(wanted)} cases failed, the tables hold the others:"
+            raise CasesFailed("\n".join([count, *map(str, failures)]))
         return tables
 
     def draw(self, out: Path = RESULTS) -> list[Path]:
