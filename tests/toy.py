@@ -4,14 +4,17 @@ import shutil
 import subprocess
 import sys
 import time
+from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
 
 from studies.kit import key
+from studies.kit.case import Case, Outcome
+from studies.kit.table import Table
 
 LIMIT = 180     # seconds after which something hangs: a run takes five on an idle machine
-#: case 2 waits until told to go, 3 dies if told to, 4 and 5 run alone
+#: case 2 waits until told to go, 4 and 5 run alone
 STUDY = '''
 import os, signal, time
 from dataclasses import dataclass
@@ -38,8 +41,6 @@ class Run(Case):
             while self.x == 2 and not os.path.exists("go"):
                 report(0.5)
                 time.sleep(0.05)
-            if self.x == 3 and os.path.exists("die"):
-                os._exit(9)
             return Outcome({"waves": [{"x": self.x, "y": self.law(self.x)}]})
         finally:
             note("end", self)
@@ -115,3 +116,16 @@ def until(true, running=None):
             pytest.fail(running.communicate()[0])
         assert time.monotonic() < end, f"waited {LIMIT} s in vain"
         time.sleep(0.02)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Cube(Case):
+    """A case of a study that runs in this process."""
+    x: float
+    name: str = "plain"
+
+    def run(self, report, folder):
+        return Outcome({"cubes": [{"x": self.x, "y": self.x**3}]})
+
+
+CUBES = Table("cubes", key=["x"], columns=["x", "y"], about="a test")

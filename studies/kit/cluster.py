@@ -34,12 +34,11 @@ class Cancelled(BaseException):
     """Ends a case that nobody waits for any more; ``except Exception`` does not take it for a failure."""
 
 
-def check_scheduler(address: str) -> str:
-    """Return the address. Raises ValueError: it is not the address of a scheduler."""
+def check_scheduler(address: str) -> None:
+    """Raise ValueError for what is not the address of a scheduler."""
     if address and not ADDRESS.fullmatch(address):
         raise ValueError(f"SCHEDULER={address} is no address of a Dask scheduler: give tcp://host:port, or "
                          "nothing to compute on this machine")
-    return address
 
 
 class Cluster:

@@ -12,6 +12,7 @@ from collections.abc import Iterable, Iterator
 from copy import copy
 from functools import cached_property
 from pathlib import Path
+from typing import Any
 
 from studies.kit.reader import Reader
 from studies.kit.syntax import ACTION, CASE, EVERYTHING, Dotted, Module, Place, Reading, chain, heads, stores
@@ -187,10 +188,8 @@ def listed(node: ast.DictComp) -> list[ast.expr]:
     return values.elts if by_name and isinstance(values, ast.Tuple | ast.List) else []
 
 
-def bare(node: ast.stmt) -> ast.stmt:
+def bare(node: Any) -> ast.stmt:
     """A class of cases without fields, cost, label, and bases, which `starts` of case.py lists themselves."""
-    if not isinstance(node, ast.ClassDef):
-        return node
     case = copy(node)
     case.bases = []
     case.body = [one for one in node.body if not is_aside(one)] or [ast.Pass()]

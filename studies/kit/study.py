@@ -149,7 +149,6 @@ def parse(study: Study, arguments: Sequence[str] | None) -> argparse.Namespace:
     add("--seeds", type=int, default=1, metavar="N", help="seeds 1 to N of these (default: 1)")
     words = parsed(parser, arguments)
     words.tried = words.rows is not None
-    words.usual = words.out is None
     words.out = words.out or results("own" if words.tried else words.size)
     words.cases = dict(workers=words.workers, scheduler=words.scheduler, out=words.out, only=words.only)
     try:
@@ -211,7 +210,7 @@ def perform(study: Study, words: argparse.Namespace) -> None:
     for path in study.written(out):
         say(f"table   {shown(path)}")
     usual = results("paper")
-    if words.usual and out != usual:
+    if out != usual:
         say(f"all of it is in {shown(out)}, what is in {shown(usual)} stays as it is")
     if failed:
         raise failed
