@@ -76,17 +76,6 @@ def test_readings_of_images_widen_what_the_print_leaves_open():
         assert row["err"] == pytest.approx(err, rel=0.01) and row["verdict"] == verdict
 
 
-def test_fluctuations_are_those_of_the_start_that_flows():
-    """The same noise, 1e-4, over 0.2 of K at Ra 2500 and over 0.8 of it at Ra 10 000."""
-    points = [{**particles(2500), "ke": 1e-4*K}, {**particles(1e4), "ke": 0.8*K},
-              {**particles(2500, variant="printed-from-flow"), "ke": 0.2*K}]
-    runs = [{**point, "seed": seed, **energies(point["ke"], 1e-6), "ke_fluctuation": 1e-4, "rolls": 2}
-            for point in points for seed in (1, 2)]
-    tables = means(GRID, {**GRID, "ra": 2500.0}, *({**point, "ke_err": 1e-6} for point in points))
-    found = judged("khp95-ra2500-fluctuations", Tables({**tables, "kinetic_energy": pd.DataFrame(runs)}))
-    assert found["measured"] == pytest.approx(4, rel=1e-6) and found["verdict"] == "holds"
-
-
 def flow(shift: float, share: float = 1.0, noise: float = 0.0) -> dict[str, np.ndarray]:
     """Two rolls on 30 x 60 places, moved along x (in L), their velocity times `share`."""
     x, y = (np.arange(60) + 0.5)/30 - 1 - shift, ((np.arange(30) + 0.5)/30 - 0.5)[:, None]

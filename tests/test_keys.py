@@ -89,27 +89,17 @@ def test_a_new_weight_a_function_that_moves_and_a_docstring_change_no_key(cases,
     assert len(cases) > 50 and not changed(cases, copy)
 
 
-def test_hard_cases_depend_on_no_method_besides_their_own(copy):
-    """One case a table and method: they hold definitions, and look up no names."""
-    one = {(type(case), getattr(case, "into", ""), repr(getattr(case, "entrant", ""))): case
-           for case in hardcases.cases("paper")}
+def test_studies_of_all_methods_depend_in_each_case_on_its_own_alone(copy):
+    """One hard case a table and method, one of cost a method and scene: they look up no names."""
+    hard = {(type(case), getattr(case, "into", ""), repr(getattr(case, "entrant", ""))): case
+            for case in hardcases.cases("paper")}
+    races = {case.label.split(", resolution")[0]: case for case in cost.cases("paper")}
     for file, first, new in METHODS:
         edit(copy, file, first, f"{new}, {first}")
-    assert len(one) > 60 and not changed(one.values(), copy)
-    for file, first, new in METHODS:
-        edit(copy, file, f"{new}, {first}", first)
-
-
-def test_cost_depends_on_no_method_besides_its_own(copy):
-    """One case a method and scene: new methods change none, a formula of smooth particles theirs."""
-    cases = list({case.label.split(", resolution")[0]: case for case in cost.cases("paper")}.values())
-    for file, first, new in METHODS:
-        edit(copy, file, first, f"{new}, {first}")
-    assert len(cases) > 50 and not changed(cases, copy)
-    for file, first, new in METHODS:
-        edit(copy, file, f"{new}, {first}", first)
+    assert len(hard) > 60 and len(races) > 50
+    assert not changed([*hard.values(), *races.values()], copy)
     edit(copy, "particles/terms.py", "q = (a.qx + b.qx)*ab.wx", "q = (a.qx - b.qx)*ab.wx")
-    assert changed(cases, copy) == [case for case in cases if "spam" in case.label]
+    assert changed(races.values(), copy) == [case for case in races.values() if "spam" in case.label]
 
 
 def test_a_line_in_the_fluxes_changes_the_keys_of_spam_and_not_of_grids(cases, copy):

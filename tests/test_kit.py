@@ -10,8 +10,7 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from studies.kit.case import Case, Outcome, word
-from studies.kit.dispatch import Bar
+from studies.kit.case import Case, Outcome
 from studies.kit.store import kept
 from studies.kit.study import Study
 from studies.kit.sweep import CasesFailed
@@ -25,16 +24,6 @@ class Lens(NamedTuple):
 
 
 EYE = Lens(2.0)
-
-
-class Mixed(NamedTuple):
-    of: object = math.sqrt
-    lens: Lens = EYE
-    kind: type = Path
-
-
-def unrelated(x):
-    return x
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -58,20 +47,6 @@ class Square(Case):
         if self.trouble == "bug":
             raise ZeroDivisionError("x is off")
         return Outcome({"squares": [{"x": self.x, "note": "", "y": np.float64(self.x**2)}]})
-
-
-class Root(Case, table="roots", same="x of"):
-    x: float
-    of: object = math.sqrt
-
-    def measure(self, report):
-        yield {"y": self.of(self.x)}
-
-
-def test_a_case_that_names_its_table_and_columns_needs_to_measure_only():
-    case = Root(x=4.0)
-    assert case.run(None, None).rows == {"roots": [{"x": 4.0, "of": "sqrt", "y": 2.0}]}
-    assert case.key != replace(case, x=9.0).key and case.label == "Root 4 sqrt"
 
 
 class Bench:
@@ -166,10 +141,6 @@ def test_a_case_that_raises_leaves_the_others_and_tells_where_the_story_is(bench
 
 def test_a_label_has_the_parameters_as_people_write_them():
     assert Square(x=0.1, log="b").label == "Square 0.1 b Lens(power=2) "
-    assert word(Mixed()) == "Mixed()"
-    other = Mixed(of=unrelated, lens=Lens(3.0), kind=Lens)
-    assert word(other) == "Mixed(of=unrelated, lens=Lens(power=3), kind=Lens)"
-    assert word((1, 2)) == "(1, 2)" and word(1e5) == "100000"
 
 
 def test_the_key_of_a_case_is_that_of_its_parameters():
@@ -180,18 +151,3 @@ def test_the_key_of_a_case_is_that_of_its_parameters():
     assert Square(x=0.1).key == base.key
     with pytest.raises(TypeError, match="a case cannot hold"):
         _ = replace(base, lens=lambda: 0).key
-
-
-def test_the_time_left_is_reckoned_from_what_is_done_since_the_start():
-    """Four cases of equal cost, which tell no fractions; the first takes 1024 s."""
-    bar = Bar([Square(x=0.0)]*4, "toy")
-    bar.line.start_t = bar.line.last_print_t = 0.0
-
-    def left_at(seconds: float) -> str:
-        bar.line._time = lambda: seconds
-        bar.show()
-        return str(bar.line).partition("left ")[2].split()[0]
-    bar.tell(0, 0.0)
-    assert left_at(70) == left_at(1000) == "?", "a case that has begun tells nothing"
-    bar.fractions[0] = 1.0
-    assert left_at(1024) == "51:12", "three times as long"

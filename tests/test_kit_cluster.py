@@ -31,14 +31,13 @@ class Clustered(Toy):
         self.address = json.loads(address.read_text())["address"]
 
     def dask(self, *words, cwd, **more):
-        """One process of the cluster, what it says in a file; a scheduler allows one more try."""
+        """One process of the cluster, what it says in a file."""
         log = (self.folder/f"dask-{len(self.processes)}.txt").open("w")
         command = [Path(sys.executable).with_name("dask"), *words, "--no-dashboard", "--host", "127.0.0.1"]
         # nannies see to one thread
         outside = {name: value for name, value in os.environ.items() if name not in ("PYTHONPATH", *THREADS)}
-        environment = {**outside, **more, "DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES": "1"}
         self.processes.append(subprocess.Popen(command, cwd=cwd, stdout=log, stderr=log,
-                                               start_new_session=True, env=environment))
+                                               start_new_session=True, env={**outside, **more}))
 
     def workers(self):
         """Two workers, that nannies start again when they are killed."""
@@ -104,14 +103,3 @@ def test_the_same_command_goes_on_and_the_rows_are_those_of_one_process(toy):
     mine, other = ({path.name for path in (toy.folder/out/"raw/toy").iterdir()}
                    for out in ("results", "here"))
     assert mine == other, "the study keeps what comes back under the same keys, and no scratch folder"
-
-
-def test_a_deadly_case_costs_no_more_than_itself(toy):
-    kept = (toy.folder/"results/raw/toy").glob("*.json")
-    next(path for path in kept if '"x": 3.0' in path.read_text()).unlink()
-    (toy.folder/"die").touch()
-    (toy.folder/"log").unlink()
-    code, text = toy.run(SCHEDULER=toy.address)
-    assert code == 1 and "1 of 6 cases failed" in text
-    assert "Run 3 wave: 2 workers died while they ran it" in text and toy.began() == ["3", "3"]
-    assert len(body(toy.folder/"results/toy/waves.csv")) == 7, "the row of an earlier run stays"

@@ -2,13 +2,12 @@
 import errno
 import os
 import signal
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import pytest
-from toy import Toy, finish, until
+from toy import CUBES, Cube, Toy, finish, until
 
 from studies.kit import store, study
-from studies.kit.case import Case, Outcome
 from studies.kit.claim import Claim
 from studies.kit.figure import figure
 from studies.kit.study import Study, main
@@ -47,15 +46,6 @@ def test_what_is_not_understood_is_said_before_anything_runs(words, rule, capsys
     assert rule in capsys.readouterr().err
 
 
-@dataclass(frozen=True, kw_only=True)
-class Cube(Case):
-    x: float
-    name: str = "plain"
-
-    def run(self, report, folder):
-        return Outcome({"cubes": [{"x": self.x, "y": self.x**3}]})
-
-
 def derive(tables):
     """Each row halved, and the sum of all."""
     frame = tables["cubes"]
@@ -69,10 +59,9 @@ def drawn(tables):
     return {"cubes": page}
 
 
-CUBES = Study(name="toy", cases=lambda size: [Cube(x=1.0), Cube(x=1/3), Cube(x=7.0, name="Quartic")],
+STUDY = Study(name="toy", cases=lambda size: [Cube(x=1.0), Cube(x=1/3), Cube(x=7.0, name="Quartic")],
               derive=derive, figures=drawn,
-              tables=[Table("cubes", key=["x"], columns=["x", "y"], about="a test"),
-                      Table("halves", key=["x"], columns=["x", "half"], about="a test"),
+              tables=[CUBES, Table("halves", key=["x"], columns=["x", "half"], about="a test"),
                       Table("never", key=["x"], columns=["x"], about="a test")],
               claims=[Claim(id="grows", source="KHP95, Sec. V", statement="cubes grow", at_least=1,
                             because="1 is there", value=lambda tables: (tables["cubes"].y.max(), 0.0))])
@@ -80,9 +69,9 @@ CUBES = Study(name="toy", cases=lambda size: [Cube(x=1.0), Cube(x=1/3), Cube(x=7
 
 @pytest.mark.parametrize(("kind", "name"), [("tables", "cubes"), ("claims", "grows")])
 def test_two_things_of_one_name_are_refused_when_a_study_is_made(kind, name):
-    one, *_ = getattr(CUBES, kind)
+    one, *_ = getattr(STUDY, kind)
     with pytest.raises(ValueError, match=f"two {kind} of one study are called '{name}'"):
-        replace(CUBES, **{kind: [one, one]})
+        replace(STUDY, **{kind: [one, one]})
 
 
 @pytest.fixture
@@ -92,7 +81,7 @@ def typed(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(store, "RESULTS", tmp_path/"results")
     monkeypatch.chdir(tmp_path)
 
-    def type_(*words, study=CUBES):
+    def type_(*words, study=STUDY):
         with pytest.raises(SystemExit) as ended:
             main(study, [*words, "--workers", "1"])
         said = capsys.readouterr()
@@ -136,7 +125,7 @@ def test_only_that_matches_nothing_names_labels_that_exist(typed, tmp_path):
     assert code == 2 and "--only chooses what to run, figures reads whole tables" in text
 
 
-OWN = replace(CUBES, own=study.Own(
+OWN = replace(STUDY, own=study.Own(
     cases=lambda text, rows, seeds: [Cube(x=float(rows + seed), name=text) for seed in range(seeds)],
     beside=lambda cases, *both: [f"{len(cases)} cases, rows {[len(tables['cubes']) for tables in both]}"]))
 
@@ -152,18 +141,15 @@ def test_rows_try_out_a_method_beside_the_tables_which_stay_as_they_are(typed, t
     assert list(read(own).x) == [16, 17] and "--only mine\n" in own.read_text()
 
 
-@pytest.mark.parametrize(("words", "rule"), [
-    (["--rows", "7", "--only", "a"], "--rows must be at least 8, got 7"),
-    (["--rows", "16", "--seeds", "0", "--only", "a"], "--seeds 0: give 1 or more"),
-    (["--rows", "16"], "give --only TEXT, too"), (["--only", "a", "--seeds", "2"], "and --rows, too")])
-def test_rows_that_cannot_run_are_one_line(typed, words, rule):
-    code, text = typed(*words, study=OWN)
+@pytest.mark.parametrize(("tried", "words", "rule"), [
+    (OWN, ["--rows", "7", "--only", "a"], "--rows must be at least 8, got 7"),
+    (OWN, ["--rows", "16", "--seeds", "0", "--only", "a"], "--seeds 0: give 1 or more"),
+    (OWN, ["--rows", "16"], "give --only TEXT, too"),
+    (OWN, ["--only", "a", "--seeds", "2"], "and --rows, too"),
+    (STUDY, ["--rows", "16", "--only", "plain"], "leave --rows out, --size chooses among them")])
+def test_rows_that_cannot_run_are_one_line(typed, tried, words, rule):
+    code, text = typed(*words, study=tried)
     assert code == 2 and rule in text.splitlines()[-1]
-
-
-def test_a_study_without_methods_to_try_out_says_so(typed):
-    code, text = typed("--rows", "16", "--only", "plain")
-    assert code == 2 and text.splitlines()[-1].endswith("leave --rows out, --size chooses among them")
 
 
 def test_quick_leaves_the_tables_of_other_sizes_alone(typed, tmp_path):
@@ -178,7 +164,7 @@ def test_quick_leaves_the_tables_of_other_sizes_alone(typed, tmp_path):
     assert {path: path.read_bytes() for path in before} == before
     assert {path.name for path in (quick/"toy").iterdir()} == {"cubes.csv", "halves.csv", "cubes.png"}
     assert (quick/"claims.csv").exists() and len(list((quick/"raw/toy").glob("*.json"))) == 3
-    assert CUBES.run("quick", workers=1, only="quartic").keys() == {"cubes", "halves"}
+    assert STUDY.run("quick", workers=1, only="quartic").keys() == {"cubes", "halves"}
     assert sizes(quick/"toy/cubes.csv")[7] == "quick"
     assert {path: path.read_bytes() for path in before} == before
 

@@ -1,22 +1,30 @@
-"""make: names that exist before anything is set up, and a list of them."""
+"""make: names that exist before anything is set up; locks that it sets up from, exact and the same in all."""
 import os
 import re
 import shutil
 import subprocess
 import sys
+import tomllib
+from functools import cache
 
 import pytest
 
-from studies.kit import key
+from studies.kit.key import ROOT
 
-pytestmark = pytest.mark.skipif(not shutil.which("make"), reason="no make")
+PROJECT = tomllib.loads((ROOT/"pyproject.toml").read_text())["project"]
+#: lock -> requirements that it is made from
+WANTED = {"requirements.lock": PROJECT["dependencies"]} | {
+    f"requirements-{extra}.lock": wanted for extra, wanted in PROJECT["optional-dependencies"].items()}
+PIN = re.compile(r"([\w.-]+)==([\w.]+)( ; [^\\]+)?((?: \\\n    --hash=sha256:[0-9a-f]{64})+)")
 
 
 @pytest.fixture
 def make(tmp_path):
     """make in a repository of the studies one and two; nothing can be set up in it."""
-    shutil.copy(key.ROOT / "Makefile", tmp_path)
-    for lock in key.ROOT.glob("requirements*.lock"):
+    if not shutil.which("make"):
+        pytest.skip("no make")
+    shutil.copy(ROOT / "Makefile", tmp_path)
+    for lock in ROOT.glob("requirements*.lock"):
         (tmp_path / lock.name).touch()
     for name, text in {"one": "STUDY = 1\n", "two": "STUDY = 2\n", "kit": ""}.items():
         (tmp_path / f"studies/{name}").mkdir(parents=True)
@@ -125,3 +133,37 @@ esac
     assert (tmp_path/"seen").read_text().split() == ["ready", "runs"]
     assert sorted(path.name for path in tmp_path.glob(".venv*")) == [".venv", ".venv-lock"]
     assert sorted(path.name for path in (tmp_path/".venv").iterdir()) == ["bin", "ready"]
+
+
+# --- locks ------------------------------------------------------------------------------------------
+
+@cache
+def pins(lock: str) -> dict[str, set[str]]:
+    """Package -> its versions; AssertionError where anything stands in the lock besides."""
+    text = (ROOT/lock).read_text()
+    assert not PIN.sub("", text).strip(), f"{lock} has more than versions and hashes"
+    versions: dict[str, set[str]] = {}
+    for name, version, *_ in PIN.findall(text):
+        versions.setdefault(name, set()).add(version)
+    return versions
+
+
+def test_there_is_a_lock_for_each_extra():
+    assert {path.name for path in ROOT.glob("requirements*.lock")} == WANTED.keys()
+
+
+@pytest.mark.parametrize("lock", WANTED)
+def test_a_lock_has_what_is_asked_for(lock):
+    asked = {re.split(r"[\[<>=!~ ]", one)[0] for one in WANTED[lock]}
+    assert asked <= pins(lock).keys()
+
+
+def test_locks_agree():
+    first: dict[str, set[str]] = {}
+    assert {name: (first[name], versions) for lock in WANTED for name, versions in pins(lock).items()
+            if first.setdefault(name, versions) != versions} == {}
+
+
+def test_the_core_has_no_notebook_browser_cluster_or_encoder():
+    others = {"jupyterlab", "ipython", "selenium", "pytest", "distributed", "imageio-ffmpeg", "mypy"}
+    assert not others & pins("requirements.lock").keys()

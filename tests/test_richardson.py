@@ -47,10 +47,8 @@ def test_values_that_do_not_converge_have_their_spread_for_error():
     assert richardson([2.0, 2.0, 2.0], SIZES).error == 0.0
 
 
-def test_refuses_too_few_and_broken_grids():
-    with pytest.raises(ValueError, match="three or more different sizes"):
-        richardson([1.0, 2.0], [8, 16])
-    with pytest.raises(ValueError, match="three or more different sizes"):
-        richardson([1.0, 2.0, 3.0], [8, 16, 16])
-    with pytest.raises(ValueError, match="must be finite"):
-        richardson([1.0, 2.0, float("nan")], SIZES)
+@pytest.mark.parametrize(("values", "sizes"), [
+    ([1.0, 2.0], [8, 16]), ([1.0, 2.0, 3.0], [8, 16, 16]), ([1.0, 2.0, float("nan")], SIZES)])
+def test_refuses_too_few_and_broken_grids(values, sizes):
+    with pytest.raises(ValueError, match="a finite value for each of three or more different sizes"):
+        richardson(values, sizes)

@@ -1,4 +1,4 @@
-"""Committed tables read right with pandas alone; tables.md says what their columns are."""
+"""Committed tables read right with pandas alone; their columns and names are explained."""
 import gzip
 import re
 import subprocess
@@ -7,6 +7,8 @@ import pandas as pd
 import pytest
 from PIL import Image
 
+from studies.build import SCENES, words
+from studies.front.solving import ALL
 from studies.kit.csvfile import EMPTY, content, read
 from studies.kit.key import ROOT
 from studies.kit.store import RESULTS
@@ -73,3 +75,32 @@ def test_the_list_of_tables_is_up_to_date():
 def test_each_file_is_in_the_list():
     listed = {(RESULTS/folder/table.file).resolve() for folder, table in TABLES}
     assert {path.resolve() for path in FILES} - listed == {RESULTS/"claims.csv"}
+
+
+# --- names --------------------------------------------------------------------------------------------
+
+NAMES = {**words.METHODS, **words.VARIATIONS}
+#: columns of tables -> what their texts name
+NAMED = {"method": NAMES, "rival": NAMES, "base": NAMES, "quantity": words.QUANTITIES}
+
+
+def test_every_name_has_its_word():
+    assert {*ALL} == {*words.METHODS} and {*SCENES} == {*words.SCENES}
+    assert not {*words.METHODS} & {*words.VARIATIONS}
+    assert "spam-wendland-c2" in words.explained("Wendland") and "moving" not in words.explained("Wendland")
+    assert "no name and no sentence has 'xyz'" in words.explained("xyz")
+
+
+@pytest.mark.parametrize("study", ["cost", "hardcases", "operators"])
+def test_every_name_in_tables_is_a_word(study):
+    for table in (RESULTS/study).glob("*.csv*"):
+        frame = read(table)
+        for column in {*NAMED} & {*frame}:
+            assert {*frame[column]} <= {*NAMED[column]}, (table.name, column)
+
+
+def test_methods_with_variants_have_names_too():
+    pairs = {pair for table in ("rb/means", "rb/walls", "onset/critical_ra")
+             for pair in read(RESULTS/f"{table}.csv")[["method", "variant"]].itertuples(index=False)}
+    assert all(words.name_of(*pair) for pair in pairs), [pair for pair in pairs if not words.name_of(*pair)]
+    assert words.name_of("spam", "printed-monaghan") == "spam-monaghan" and not words.name_of("spam", "new")

@@ -4,14 +4,17 @@ import shutil
 import subprocess
 import sys
 import time
+from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
 
 from studies.kit import key
+from studies.kit.case import Case, Outcome
+from studies.kit.table import Table
 
 LIMIT = 180     # seconds after which something hangs: a run takes five on an idle machine
-#: case 2 waits until told to go, 3 dies if told to, 4 and 5 run alone
+#: case 2 waits until told to go, 4 and 5 run alone
 STUDY = '''
 import os, signal, time
 from dataclasses import dataclass
@@ -20,7 +23,7 @@ from continuum import law
 from studies.kit.case import Case, Outcome
 from studies.kit.claim import Claim
 from studies.kit.figure import figure
-from studies.kit.study import Study, main
+from studies.kit.study import Study
 from studies.kit.table import Table
 
 def note(word, case):
@@ -38,8 +41,6 @@ class Run(Case):
             while self.x == 2 and not os.path.exists("go"):
                 report(0.5)
                 time.sleep(0.05)
-            if self.x == 3 and os.path.exists("die"):
-                os._exit(9)
             return Outcome({"waves": [{"x": self.x, "y": self.law(self.x)}]})
         finally:
             note("end", self)
@@ -58,9 +59,8 @@ def figures(tables):
 
 claim = Claim(id="grows", source="KHP95, Sec. V", statement="waves grow", at_least=-9,
               value=lambda tables: (tables["waves"].y.max(), 0.0), because="a test")
-if __name__ == "__main__":
-    main(Study(name="toy", cases=cases, figures=figures, claims=[claim],
-               tables=[Table("waves", key=["x"], columns=["x", "y"], about="a test")]))
+STUDY = Study(name="toy", cases=cases, figures=figures, claims=[claim],
+              tables=[Table("waves", key=["x"], columns=["x", "y"], about="a test")])
 '''
 
 
@@ -71,15 +71,16 @@ class Toy:
         self.folder = folder
         ignored = shutil.ignore_patterns("__pycache__")
         shutil.copytree(key.ROOT/"studies/kit", folder/"studies/kit", ignore=ignored)
-        (folder/"continuum").mkdir()
-        (folder/"studies/toy.py").write_text(STUDY)
-        (folder/"continuum/law.py").write_text(law)
-        for name in ("studies/__init__", "continuum/__init__"):
-            (folder/f"{name}.py").touch()
+        shutil.copy(key.ROOT/"studies/__main__.py", folder/"studies")
+        files = {"studies/__init__": "", "studies/toy/__init__": STUDY,
+                 "continuum/__init__": "", "continuum/law": law}
+        for name, text in files.items():
+            (folder/name).parent.mkdir(exist_ok=True)
+            (folder/f"{name}.py").write_text(text)
 
     def start(self, *words: str, **environment: str) -> subprocess.Popen:
         """The study, in a group of its own, as Ctrl-C wants it."""
-        return subprocess.Popen([sys.executable, "-m", "studies.toy", *words], cwd=self.folder, text=True,
+        return subprocess.Popen([sys.executable, "-m", "studies", "toy", *words], cwd=self.folder, text=True,
                                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT, start_new_session=True,
                                 env={**os.environ, **environment})
 
@@ -115,3 +116,16 @@ def until(true, running=None):
             pytest.fail(running.communicate()[0])
         assert time.monotonic() < end, f"waited {LIMIT} s in vain"
         time.sleep(0.02)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Cube(Case):
+    """A case of a study that runs in this process."""
+    x: float
+    name: str = "plain"
+
+    def run(self, report, folder):
+        return Outcome({"cubes": [{"x": self.x, "y": self.x**3}]})
+
+
+CUBES = Table("cubes", key=["x"], columns=["x", "y"], about="a test")

@@ -4,11 +4,11 @@ import json
 import sys
 from collections.abc import Callable, Iterable, Iterator
 from enum import Enum
-from functools import cache, cached_property
+from functools import cached_property
 from pathlib import Path
 from typing import Any, ClassVar, dataclass_transform
 
-from studies.kit.key import CODE, PACKAGES, ROOT, Code, digest, followed, name_of
+from studies.kit.key import CODE, Code, digest, followed, is_ours
 from studies.kit.syntax import CASE, WHOLE, Place
 from studies.kit.table import Row, Rows
 
@@ -122,9 +122,8 @@ def parameters(value: Any) -> Any:
     if isinstance(value, tuple | list):
         return [parameters(item) for item in value]
     if hasattr(value, "__qualname__") and "<" not in value.__qualname__:
-        package = value.__module__.partition(".")[0]
-        ours = package in (*PACKAGES, "__main__", "__mp_main__")    # the key includes its code
-        return {"": value.__qualname__} | ({} if ours else {"module": value.__module__})
+        module = {} if is_ours(value.__module__) else {"module": value.__module__}     # the key has our code
+        return {"": value.__qualname__} | module
     raise TypeError(f"a case cannot hold {value!r}: use numbers, texts, tuples, NamedTuples, dataclasses, "
                     "enums, or functions and classes of a module")
 
@@ -137,21 +136,18 @@ def key_of(case: Case, code: Code) -> str:
 
 def starts(case: Case) -> Iterator[Place]:
     """Places where the classes of a case and the types and functions among its parameters are defined."""
-    own = file_of(type(case).__module__)
+    own = type(case).__module__
     classes = [place_of(kind, own, CASE if issubclass(kind, Case) else WHOLE) for kind in type(case).__mro__]
     values = [place_of(kind, own) for value in vars(case).values() for kind in kinds(value)]
     yield from filter(None, classes + values)
 
 
-def place_of(kind: Any, own: Path | None, part: str = WHOLE) -> Place | None:
-    """Place where a class or function is defined; None outside our packages and the file of the case."""
-    path = file_of(kind.__module__)
-    if path is None:
-        return None
-    script = str(path) if path == own else ""
-    module = module_of(path) or script
-    name = kind.__qualname__.split(".")[0]
-    return Place(module, name, part) if module and followed(module) else None
+def place_of(kind: Any, own: str, part: str = WHOLE) -> Place | None:
+    """Place where a class or function is defined; None outside our packages and the module of the case."""
+    module = kind.__module__
+    if not is_ours(module):
+        module = sys.modules[own].__file__ if module == own else None       # a script
+    return Place(module, kind.__qualname__.split(".")[0], part) if module and followed(module) else None
 
 
 def kinds(value: Any) -> Iterator[Any]:
@@ -162,17 +158,3 @@ def kinds(value: Any) -> Iterator[Any]:
     if isinstance(items, tuple | list):
         for item in items:
             yield from kinds(item)
-
-
-@cache
-def file_of(module: str | None) -> Path | None:
-    """File of a module by its name, None for built-in modules."""
-    file = getattr(sys.modules.get(module or ""), "__file__", None)
-    return Path(file).resolve() if file else None
-
-
-@cache
-def module_of(path: Path) -> str | None:
-    """Dotted module name of a file in our packages, else None; a module started by -m is named __main__."""
-    ours = any(path.is_relative_to(ROOT/package) for package in PACKAGES)
-    return name_of(path) if ours else None

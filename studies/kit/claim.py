@@ -40,11 +40,10 @@ MEANING = ("whose: a statement that the paper prints, or another author, or our 
 
 #: beginning of a source: a paper, or an author and a year
 PAPER = re.compile(r"(KHP95|RR98)\b|[A-Z].*?\b(1[89]|20)\d\d\b\)?", re.IGNORECASE)
-ROMAN = ("I", "II", "III", "IV", "V", "VI", "VII", "VIII", "IX", "X")
 COUNTED = r"\d+(-\d+)?"
 #: kind of place -> pattern of its number, in the order in which places are listed
 KINDS = {"Eq.": COUNTED, "Fig.": COUNTED, "Table": COUNTED, "abstract": "",
-         "Sec.": rf"({'|'.join(ROMAN)})( [A-Z])?", "example": r"\w+"}
+         "Sec.": "[IVX]+( [A-Z])?", "example": r"\w+"}
 PART = re.compile(r"(?:after )?(?:(Eq|Fig|Table|Sec|abstract|example)s?\.?(?: |$))?(.*)")
 
 
@@ -61,9 +60,8 @@ class Cited(NamedTuple):
     @property
     def order(self) -> tuple:
         """Sort key by paper, kind and number: Eq. 9 before Eq. 10, Sec. III before Sec. III B."""
-        first, _, rest = self.number.partition(" ")
-        number = int(first) if first.isdecimal() else [*ROMAN, first].index(first)
-        return self.paper, [*KINDS, ""].index(self.kind), number, rest
+        number = int(self.number) if self.number.isdecimal() else 0
+        return self.paper, [*KINDS, ""].index(self.kind), number, self.number
 
 
 def places(source: str) -> tuple[Cited, ...]:
@@ -141,7 +139,7 @@ class Claim:
 
     def check(self) -> None:
         """Raise ValueError if headline is no place of the source, or value, reason or limits are wrong."""
-        if other := {*self.decides} - {*self.places}:
+        if other := {*self.decides} - {*places(self.source)}:
             raise ValueError(f"headline {listed(other)} is not in source {self.source!r}: name it there too")
         if bool(self.undecidable.strip()) == bool(self.value):
             raise ValueError("it has no value, or one though it is declared undecidable: keep one of them")
@@ -161,16 +159,11 @@ class Claim:
         return {"khp95": "paper", "rr98": "paper", "own": "own"}.get(self.id.split("-")[0], "other")
 
     @property
-    def places(self) -> tuple[Cited, ...]:
-        """Equations, figures and tables that the source cites, else sections."""
-        return places(self.source)
-
-    @property
     def decides(self) -> tuple[Cited, ...]:
         """Places whose verdict the claim decides."""
         if isinstance(self.headline, str) and self.headline:
             return places(f"{paper_of(self.source)} {self.headline}")
-        return self.places if self.headline else ()
+        return places(self.source) if self.headline else ()
 
     @property
     def low(self) -> float:
@@ -227,7 +220,7 @@ def row(claim: Claim, tables: Noting, study: str) -> Row:
     tested = {"low": claim.low, "high": claim.high, "formula": formula} if claim.value else {}
     return {"id": claim.id, "source": claim.source, "statement": claim.statement, "printed": claim.printed,
             "whose": claim.whose, "fixed": "after" if claim.after else "before", "study": study, **tested,
-            **said, "equation": listed(claim.places), "headline": listed(claim.decides),
+            **said, "equation": listed(places(claim.source)), "headline": listed(claim.decides),
             "evidence": "; ".join(filter(None, files))}
 
 

@@ -4,7 +4,6 @@ The cluster shares only the code with the study, and no disk: a case is sent to 
 outcome as text. If a worker is lost, Dask gives its case to another one, as often as the scheduler allows
 (``allowed-failures``). ``make worker SCHEDULER=tcp://...`` starts a worker, for one case at a time.
 """
-import io
 import os
 import pickle
 import re
@@ -15,12 +14,11 @@ from collections.abc import Iterator
 from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
-from pkgutil import resolve_name
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from studies.kit import csvfile
-from studies.kit.case import Case, Report, file_of, module_of
-from studies.kit.dispatch import LOOK, THREADS, Bar, CaseEnd
+from studies.kit.case import Case, Report
+from studies.kit.dispatch import LOOK, THREADS, Bar, CaseEnd, tell
 from studies.kit.store import CannotRun, Failure, attempt, same_code
 
 if TYPE_CHECKING:
@@ -36,19 +34,18 @@ class Cancelled(BaseException):
     """Ends a case that nobody waits for any more; ``except Exception`` does not take it for a failure."""
 
 
-def check_scheduler(address: str) -> str:
-    """Return the address. Raises ValueError: it is not the address of a scheduler."""
+def check_scheduler(address: str) -> None:
+    """Raise ValueError for what is not the address of a scheduler."""
     if address and not ADDRESS.fullmatch(address):
         raise ValueError(f"SCHEDULER={address} is no address of a Dask scheduler: give tcp://host:port, or "
                          "nothing to compute on this machine")
-    return address
 
 
 class Cluster:
     """Transport with a place for each worker that is connected now. `close` abandons unfinished cases."""
 
     def __init__(self, address: str, bar: Bar):
-        self.client, self.bar = connected(address), bar
+        self.client, self.fractions = connected(address), bar.fractions
         self.running: dict[Future, tuple[int, str]] = {}
         self.complete = True        # False while there is no worker, which is reported once
 
@@ -65,9 +62,9 @@ class Cluster:
     def submit(self, number: int, case: Case) -> None:
         # a lambda is sent as code: the scheduler, which unpacks it, needs no copy of the repository
         future = self.client.submit(lambda *sent: import_module("studies.kit.cluster").perform(*sent),
-                                    packed(case), csvfile.versions(), pure=False)
+                                    pickle.dumps(case), csvfile.versions(), pure=False)
         self.running[future] = number, case.label
-        self.bar.tell(number, 0.0)
+        tell(self.fractions, number, 0.0)
 
     def ready(self) -> Iterator[CaseEnd]:
         time.sleep(LOOK)
@@ -106,22 +103,6 @@ def outcome(future: "Future", label: str) -> str | Failure:
         return Failure(label, message, story=str(error))
     except Exception as error:      # of the cluster: a worker returns failures of cases, it raises none
         raise CannotRun(f"{error}: {WAY_OUT}" if future.status == "error" else NO_ANSWER) from error
-
-
-class Pack(pickle.Pickler):
-    """Pickler that refers to definitions of __main__ by module name, as a worker has another __main__."""
-
-    def reducer_override(self, thing: Any) -> Any:
-        if getattr(thing, "__module__", "") == "__main__" and hasattr(thing, "__qualname__"):
-            return resolve_name, (f"{module_of(file_of('__main__'))}:{thing.__qualname__}",)
-        return NotImplemented
-
-
-def packed(case: Case) -> bytes:
-    """A case as bytes, together with its key."""
-    file, _ = io.BytesIO(), case.key
-    Pack(file).dump(case)
-    return file.getvalue()
 
 
 def perform(sent: bytes, versions: str) -> str | Failure:

@@ -10,6 +10,7 @@ import threading
 from collections import Counter, deque
 from collections.abc import Callable, Iterable, Iterator, MutableSequence, Sequence
 from contextlib import closing, suppress
+from functools import partial
 from multiprocessing import resource_tracker
 from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
@@ -47,11 +48,6 @@ class Bar:
             total=sum(self.costs), desc=name, disable=not cases, bar_format=FORMAT,
             smoothing=0, dynamic_ncols=True, mininterval=seconds, maxinterval=seconds, miniters=0)
 
-    def tell(self, number: int, fraction: float) -> None:
-        """Set the fraction done of a case, unless its outcome has come."""
-        if self.fractions[number] < 1:
-            self.fractions[number] = between(fraction)
-
     def show(self) -> None:
         """Draw the bar, if it is time to."""
         labels = [case.label for case, fraction in zip(self.cases, self.fractions) if 0 < fraction < 1]
@@ -60,9 +56,9 @@ class Bar:
         self.line.update(done - self.line.n)
 
 
-def between(fraction: float) -> float:
-    """A fraction, limited to the range of a running case."""
-    return min(max(fraction, BEGUN), ENDING)
+def tell(fractions: MutableSequence[float], number: int, fraction: float) -> None:
+    """Note the fraction done of a case that runs."""
+    fractions[number] = min(max(fraction, BEGUN), ENDING)
 
 
 def dispatch(cases: Sequence[Case], folder: Path, name: str,
@@ -73,14 +69,12 @@ def dispatch(cases: Sequence[Case], folder: Path, name: str,
     Raises KeyboardInterrupt, CannotRun: running cases are ended, finished ones are kept.
     """
     bar, failures = Bar(cases, name), []
-    numbers = range(len(cases))
-    together = deque(number for number in numbers if not cases[number].alone)
-    alone = deque(number for number in numbers if cases[number].alone)
     with bar.line:
-        for todo, limit in ((together, len(cases)), (alone, 1)):
+        for alone in (False, True):
+            todo = deque(number for number, case in enumerate(cases) if case.alone == alone)
             if todo:
                 with closing(connect(bar)) as transport:
-                    for number, result in drain(transport, cases, todo, limit, bar):
+                    for number, result in drain(transport, cases, todo, 1 if alone else len(cases), bar):
                         failures.append(keep(cases[number], result, folder))
     return [failure for failure in failures if failure]
 
@@ -123,7 +117,7 @@ class Here:
 
     def submit(self, number: int, case: Case) -> None:
         def report(fraction: float) -> None:
-            self.bar.tell(number, fraction)
+            tell(self.bar.fractions, number, fraction)
             self.bar.show()
         self.results.append((number, attempt(case, self.folder/case.key, report)))
 
@@ -203,15 +197,10 @@ def serve(pipe: Connection, folder: Path, fractions: MutableSequence[float]) -> 
     with suppress(EOFError, BrokenPipeError):       # the study has ended
         while True:
             number, case = pipe.recv()
-            pipe.send(result_of(number, case, folder, fractions))
-
-
-def result_of(number: int, case: Case, folder: Path, fractions: MutableSequence[float]) -> str | Failure:
-    """In a worker: outcome of a case, or a failure if the code has changed since the study began."""
-    def report(fraction: float) -> None:
-        fractions[number] = between(fraction)
-    report(0.0)
-    return attempt(case, folder / case.key, report) if same_code(case) else Failure(case.label, CHANGED)
+            report = partial(tell, fractions, number)
+            # a changed formula would give another result under the key that the study has
+            same = same_code(case)
+            pipe.send(attempt(case, folder/case.key, report) if same else Failure(case.label, CHANGED))
 
 
 def end_with_parent() -> None:

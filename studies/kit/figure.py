@@ -79,16 +79,11 @@ def plain_ticks(axes: Axes, values: Sequence[float]) -> None:
     axes.tick_params(axis="x", which="minor", labelbottom=False)
 
 
-def ticks(axes: Axes, values: Sequence[float]) -> None:
-    """Set ticks along x at these values only, all with labels."""
-    axes.set_xticks(values, labels=[f"{value:g}" for value in values])
-    axes.minorticks_off()
-
-
 def logarithmic(axes: Axes, along: Sequence[float]) -> None:
     """Set log scales, with labels at these values along x, and at more than powers of ten if y has few."""
     axes.set(xscale="log", yscale="log")
-    ticks(axes, along)
+    axes.set_xticks(along, labels=[f"{value:g}" for value in along])
+    axes.minorticks_off()
     low, high = axes.get_ylim()
     if high < 100*low:
         numbered(axes.yaxis)

@@ -77,7 +77,7 @@ def linear(X: np.ndarray, y: Numbers, *, weight: Numbers | None = None, err: Num
     return Fit(A@y, spread, residuals)
 
 
-def polynomial(x: Numbers, y: Numbers, degree: int = 1, *, weight: Numbers | None = None,
+def polynomial(x: Numbers, y: Numbers, degree: int, *, weight: Numbers | None = None,
                err: Numbers | None = None) -> Fit:
     """Least-squares polynomial y = c_0 + c_1 x + c_2 x^2 ...; weight, err : as for `linear`."""
     return linear(vander(np.asarray(x, float), degree), y, weight=weight, err=err)
@@ -93,9 +93,9 @@ def weighted(x: Numbers, y: Numbers, err: Numbers) -> Fit:
     return Fit(c, spread, y - X@c)
 
 
-def line(x: Numbers, y: Numbers, *, weight: Numbers | None = None, err: Numbers | None = None) -> Fit:
-    """Straight line by least squares; see `polynomial`."""
-    return polynomial(x, y, 1, weight=weight, err=err)
+def line(x: Numbers, y: Numbers, *, err: Numbers | None = None) -> Fit:
+    """Straight line by least squares; err : as for `linear`."""
+    return polynomial(x, y, 1, err=err)
 
 
 def power_law(x: Numbers, y: Numbers, err: Numbers | None = None) -> Fit:
@@ -123,11 +123,10 @@ def grid_limit(sizes: Numbers, values: Numbers) -> Measured:
 
     Raises CannotTell: there are fewer than three grids.
     """
-    grids = len(set(sizes))
-    if grids < 3:
-        raise CannotTell(f"not run yet: a limit takes three grids, got {grids}")
-    fine = richardson(list(values), list(sizes))
-    return Measured(float(fine.limit), float(fine.error))
+    if len(set(sizes)) < 3:
+        raise CannotTell(f"not run yet: a limit takes three grids, got {len(set(sizes))}")
+    _, limit, error = richardson(values, sizes)
+    return Measured(limit, error)
 
 
 def four_grids(sizes: Numbers, values: Numbers) -> Measured:
@@ -135,7 +134,7 @@ def four_grids(sizes: Numbers, values: Numbers) -> Measured:
     as further terms change less; that of `grid_limit` for three grids or an order other than 2.
     """
     limit = grid_limit(sizes, values)
-    f, h = finest(list(values), list(sizes), 4)
+    f, h = finest(values, sizes, 4)
     if len(f) < 4 or not abs(observed_order(f[1:], h[1:]) - 2) < NEAR:
         return limit
     return Measured(limit.value, 2*abs(eliminate(f, h, 2.0, 4.0, 6.0) - limit.value))
@@ -148,7 +147,7 @@ class Extrapolated(NamedTuple):
     error: float
 
 
-def richardson(values: Sequence[float], sizes: Sequence[float]) -> Extrapolated:
+def richardson(values: Numbers, sizes: Numbers) -> Extrapolated:
     """Limit of values for h = 1/size -> 0, sizes being cells per length in any order and ratio.
 
     The limit is f of f + a h^2 + b h^4 through the three finest grids. Its error is the larger distance to
@@ -168,14 +167,12 @@ def richardson(values: Sequence[float], sizes: Sequence[float]) -> Extrapolated:
     return Extrapolated(order=seen, limit=limit, error=max(abs(limit - other) for other in others))
 
 
-def finest(values: Sequence[float], sizes: Sequence[float], count: int = 3) -> tuple[np.ndarray, np.ndarray]:
+def finest(values: Numbers, sizes: Numbers, count: int = 3) -> tuple[np.ndarray, np.ndarray]:
     """Values and spacings of the ``count`` finest grids, coarse to fine. Raises ValueError: wrong input."""
     f, n = np.asarray(values, float), np.asarray(sizes, float)
-    if f.shape != n.shape or f.ndim != 1 or len(set(n)) < 3 or len(set(n)) < len(n):
-        raise ValueError(f"{f.size} values on sizes {n.tolist()}: give one value for each of three or more "
-                         "different sizes")
-    if not (np.isfinite(f).all() and (n > 0).all()):
-        raise ValueError(f"values {f.tolist()} on sizes {n.tolist()}: values must be finite, sizes positive")
+    if not (len(set(n)) == len(f) >= 3 and np.isfinite(f).all()):
+        raise ValueError(f"values {f.tolist()} on sizes {n.tolist()}: give a finite value for each of three "
+                         "or more different sizes")
     last = np.argsort(n)[-count:]
     return f[last], 1/n[last]
 

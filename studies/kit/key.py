@@ -7,9 +7,12 @@ old one names, or when a docstring changes.
 """
 import ast
 import hashlib
+from collections import defaultdict
 from collections.abc import Iterable, Iterator
 from copy import copy
+from functools import cached_property
 from pathlib import Path
+from typing import Any
 
 from studies.kit.reader import Reader
 from studies.kit.syntax import ACTION, CASE, EVERYTHING, Dotted, Module, Place, Reading, chain, heads, stores
@@ -24,21 +27,9 @@ ASIDE = ("cost", "label")
 Owners = frozenset[Place]
 
 
-def file_of(name: str, root: Path) -> Path | None:
-    """File of a module of our packages, or of a script named by its path; None for others."""
-    if name.endswith(".py"):
-        return Path(name)
-    if name.split(".")[0] not in PACKAGES:
-        return None
-    base = root.joinpath(*name.split("."))
-    files = (base.with_suffix(".py"), base/"__init__.py")
-    return next((path for path in files if path.is_file()), None)
-
-
-def name_of(path: Path, root: Path = ROOT) -> str:
-    """Dotted module name of a file below the folder ``root``."""
-    parts = path.relative_to(root).with_suffix("").parts
-    return ".".join(parts).removesuffix(".__init__")
+def is_ours(module: str) -> bool:
+    """Whether a module is in our packages."""
+    return module.partition(".")[0] in PACKAGES
 
 
 def followed(module: str) -> bool:
@@ -59,8 +50,6 @@ class Code:
         self.modules: dict[str, Module | None] = {}
         self.readings: dict[Place, Reading] = {}
         self.hashes: dict[frozenset[Place], str] = {}
-        self.actions: dict[Place, list[tuple[Owners, Place]]] = {}      # by each of their owners
-        self.complete = False
 
     def hash(self, starts: Iterable[Place]) -> str:
         """Hash of all definitions reached from some places."""
@@ -78,7 +67,6 @@ class Code:
 
     def reached(self, starts: Iterable[Place]) -> set[Place]:
         """All places that a result depends on, found recursively from some places."""
-        self.read_all()
         places: set[Place] = set()
         todo = list(starts)
         while todo:
@@ -94,33 +82,31 @@ class Code:
 
     # --- finding definitions -----------------------------------------------------------------------
 
-    def read_all(self) -> None:
-        """Read all modules of our packages, to know every action."""
-        if self.complete:
-            return
-        for package in PACKAGES:
-            for path in sorted((self.root/package).rglob("*.py")):
-                name = name_of(path, self.root)
-                if followed(name):
-                    self.module(name)
-        self.complete = True
+    @cached_property
+    def files(self) -> dict[str, Path]:
+        """Files of our packages by the names of their modules."""
+        paths = [path for package in PACKAGES for path in (self.root/package).rglob("*.py")]
+        names = [".".join(path.relative_to(self.root).with_suffix("").parts) for path in paths]
+        return {name.removesuffix(".__init__"): path for name, path in zip(names, paths)}
 
     def module(self, name: str) -> Module | None:
         """A module of our packages by its name, a script by its path; None for others."""
         if name not in self.modules:
-            path = file_of(name, self.root)
-            self.modules[name] = module = Module(name, path) if path else None
-            if module and followed(name):
-                self.note_actions(module)
+            path = Path(name) if name.endswith(".py") else self.files.get(name)
+            self.modules[name] = Module(name, path) if path else None
         return self.modules[name]
 
-    def note_actions(self, module: Module) -> None:
-        """Record the actions of a module: statements that do more than define names."""
-        for number, node in enumerate(module.actions):
-            action = Place(module.name, str(number), ACTION)
-            for owners in self.owners(module, node):
-                for owner in owners:
-                    self.actions.setdefault(owner, []).append((owners, action))
+    @cached_property
+    def actions(self) -> dict[Place, list[tuple[Owners, Place]]]:
+        """Statements of our packages that do more than define names, by each of their owners."""
+        actions = defaultdict(list)
+        for module in filter(None, map(self.module, filter(followed, self.files))):
+            for number, node in enumerate(module.actions):
+                action = Place(module.name, str(number), ACTION)
+                for owners in self.owners(module, node):
+                    for owner in owners:
+                        actions[owner].append((owners, action))
+        return actions
 
     def owners(self, module: Module, node: ast.stmt) -> Iterator[Owners]:
         """For each thing that a statement does, the places that must all be reached for it to count."""
@@ -202,10 +188,8 @@ def listed(node: ast.DictComp) -> list[ast.expr]:
     return values.elts if by_name and isinstance(values, ast.Tuple | ast.List) else []
 
 
-def bare(node: ast.stmt) -> ast.stmt:
+def bare(node: Any) -> ast.stmt:
     """A class of cases without fields, cost, label, and bases, which `starts` of case.py lists themselves."""
-    if not isinstance(node, ast.ClassDef):
-        return node
     case = copy(node)
     case.bases = []
     case.body = [one for one in node.body if not is_aside(one)] or [ast.Pass()]

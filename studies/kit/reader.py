@@ -74,7 +74,7 @@ class Reader(ast.NodeTransformer):
         node.decorator_list = list(map(self.visit, node.decorator_list))
         node.returns = None
         self.visit_signature(node.args, types=node.name == UNNAMED)
-        node.body = self.inner(undocumented(node.body), node.args) or [ast.Pass()]
+        node.body = self.inner(undocumented(node.body), node.args)
         return node
 
     def visit_ClassDef(self, node: ast.ClassDef) -> ast.AST:
@@ -133,12 +133,6 @@ class Reader(ast.NodeTransformer):
         uses = dict(self.uses)
         node.annotation, node.value = self.visit(node.annotation), value
         self.uses = uses
-        return node
-
-    def generic_visit(self, node: ast.AST) -> ast.AST:
-        super().generic_visit(node)
-        if getattr(node, "body", None) == []:
-            setattr(node, "body", [ast.Pass()])  # noqa: B010  (mypy allows it so)
         return node
 
 

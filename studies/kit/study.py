@@ -71,13 +71,16 @@ class Study:
         """
         sweep = Sweep(study=self.name, tables=self.tables, size=size, out=out or results(size), **more)
         chosen = cases or labelled(list(self.cases(size)), sweep.only, size)
+        wanted = list({case.key: case for case in chosen}.values())
         busy = f"{self.name} runs in {shown(sweep.out)} already: let it end, or give another --out"
         with locked(sweep.folder, busy):
-            tables, failed = sweep.run(chosen)
+            failures = sweep.run(wanted)
+            tables = sweep.put(sweep.rows(wanted))
             if tables:
                 tables = sweep.put(self.derive(tables), derived=True)
-        if failed:
-            raise failed
+        if failures:
+            count = f"{len(failures)} of {len(wanted)} cases failed, the tables hold the others:"
+            raise CasesFailed("\n".join([count, *map(str, failures)]))
         return tables
 
     def draw(self, out: Path = RESULTS) -> list[Path]:
@@ -146,7 +149,6 @@ def parse(study: Study, arguments: Sequence[str] | None) -> argparse.Namespace:
     add("--seeds", type=int, default=1, metavar="N", help="seeds 1 to N of these (default: 1)")
     words = parsed(parser, arguments)
     words.tried = words.rows is not None
-    words.usual = words.out is None
     words.out = words.out or results("own" if words.tried else words.size)
     words.cases = dict(workers=words.workers, scheduler=words.scheduler, out=words.out, only=words.only)
     try:
@@ -208,7 +210,7 @@ def perform(study: Study, words: argparse.Namespace) -> None:
     for path in study.written(out):
         say(f"table   {shown(path)}")
     usual = results("paper")
-    if words.usual and out != usual:
+    if out != usual:
         say(f"all of it is in {shown(out)}, what is in {shown(usual)} stays as it is")
     if failed:
         raise failed

@@ -1,7 +1,7 @@
 """Sweep over the cases of a study: finished ones are read, others run, and rows are merged into tables."""
 import shlex
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
 from pathlib import Path
@@ -10,7 +10,7 @@ from studies.kit.case import Case
 from studies.kit.cluster import Cluster, check_scheduler
 from studies.kit.dispatch import Bar, Here, Processes, Transport, dispatch
 from studies.kit.store import RESULTS, CannotRun, Failure, kept
-from studies.kit.table import Row, Rows, Table, Tables, changed, check_size, merge, read
+from studies.kit.table import SIZES, Row, Rows, Table, Tables, changed, merge, read
 
 LABELS = 3      # number of labels in the message on a label that does not exist
 GO_ON = "the same command goes on from there"
@@ -41,7 +41,8 @@ class Sweep:
     only: str = ""
 
     def __post_init__(self):
-        check_size(self.size)
+        if self.size not in SIZES:
+            raise ValueError(f"unknown size {self.size!r}: choose one of {', '.join(SIZES)}")
         if self.workers < 1:
             raise ValueError(f"workers must be at least 1, got {self.workers}: 2 uses two cores")
         check_scheduler(self.scheduler)
@@ -51,21 +52,11 @@ class Sweep:
         """Folder of finished cases."""
         return self.out/"raw"/self.study
 
-    def run(self, cases: Iterable[Case]) -> tuple[Tables, CasesFailed | None]:
-        """Run the unfinished cases, longest first; return tables with all rows, and CasesFailed or None.
+    def run(self, wanted: Sequence[Case]) -> list[Failure]:
+        """Run the cases that are not stored, the longest first; return the failures.
 
-        Raises KeyboardInterrupt, CannotRun: finished cases are kept, the tables are unchanged.
+        Raises KeyboardInterrupt, CannotRun: finished cases are kept.
         """
-        wanted = list({case.key: case for case in cases}.values())
-        failures = self.run_missing(wanted)
-        tables = self.put(self.rows(wanted))
-        if failures:
-            count = f"{len(failures)} of {len(wanted)} cases failed, the tables hold the others:"
-            return tables, CasesFailed("\n".join([count, *map(str, failures)]))
-        return tables, None
-
-    def run_missing(self, wanted: Sequence[Case]) -> list[Failure]:
-        """Run the cases that are not stored; return the failures."""
         missing = [case for case in wanted if kept(case, self.folder) is None]
         missing.sort(key=lambda case: -case.cost)
         try:

@@ -5,7 +5,6 @@ A row of a better size (quick < paper < fine) is never replaced by one of a less
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass, field
-from numbers import Real
 from pathlib import Path
 from typing import Any
 
@@ -71,13 +70,6 @@ def groups(frame: pd.DataFrame, by: str | list[str]) -> list[tuple[Any, pd.DataF
     return list(frame.groupby(by))
 
 
-def check_size(size: str) -> str:
-    """Return ``size``. Raises ValueError: it is none of SIZES."""
-    if size not in SIZES:
-        raise ValueError(f"unknown size {size!r}: choose one of {', '.join(SIZES)}, as in SIZE=quick")
-    return size
-
-
 def merge(path: Path, table: Table, rows: Sequence[Row], *, size: str,
           command: str = "") -> tuple[pd.DataFrame, int]:
     """Merge ``rows`` into the CSV at ``path``; return the table and the number of better rows kept.
@@ -107,15 +99,14 @@ def changed(path: Path, table: Table, rows: Sequence[Row]) -> list[Row]:
     """Those of ``rows`` that are not in the CSV at ``path`` with the same values."""
     if not path.exists():
         return list(rows)
-    old = lines(table, read(path, table.columns))
-    new = lines(table, rounded(table, pd.DataFrame(rows)))
+    old = lines(read(path, table.columns), table.columns)
+    new = lines(rounded(table, pd.DataFrame(rows)), table.columns)
     return [row for row, line in zip(rows, new) if line not in old]
 
 
-def lines(table: Table, frame: pd.DataFrame) -> list[str]:
-    """Rows as lines of CSV, with the columns of the table alone."""
-    columns = frame.reindex(columns=list(table.columns))
-    text = columns.to_csv(index=False, header=False, float_format=DIGITS)
+def lines(frame: pd.DataFrame, columns: Sequence[str]) -> list[str]:
+    """Rows as lines of CSV, with these columns alone."""
+    text = frame.reindex(columns=list(columns)).to_csv(index=False, header=False, float_format=DIGITS)
     return text.splitlines()
 
 
@@ -132,8 +123,8 @@ def best(frame: pd.DataFrame, key: Sequence[str]) -> pd.DataFrame:
     """One row per key: that of the best size, the last among equals."""
     rank = frame["size"].map(SIZES.index).sort_values(kind="stable")
     ascending = frame.loc[rank.index]
-    repeated = identity(ascending, key).duplicated(keep="last")
-    return ascending[~repeated]
+    repeated = pd.Series(lines(ascending, key)).duplicated(keep="last")
+    return ascending[~repeated.to_numpy()]
 
 
 def check_rows(table: Table, new: pd.DataFrame) -> None:
@@ -146,11 +137,9 @@ def check_rows(table: Table, new: pd.DataFrame) -> None:
     if len(missing):
         raise ValueError(f"rows of table {table.name} lack {', '.join(missing)}: each needs its whole key")
     check_texts(table, new[new.columns.intersection(list(table.columns))])
-    names = identity(new, table.key)
-    twice = names[names.duplicated()]
-    if len(twice):
-        raise ValueError(f"two rows of table {table.name} have the key {twice.iloc[0]}: a longer key tells "
-                         "them apart")
+    name, count = Counter(lines(new, table.key)).most_common(1)[0]
+    if count > 1:
+        raise ValueError(f"two rows of table {table.name} have the key {name}: a longer key tells them apart")
 
 
 def check_texts(table: Table, frame: pd.DataFrame) -> None:
@@ -159,20 +148,6 @@ def check_texts(table: Table, frame: pd.DataFrame) -> None:
         if is_number(text) or text in (*MISSING, EMPTY):
             raise ValueError(f"table {table.name} would hold the text {text!r}, which reads back as a number "
                              "or nothing: write numbers as such, nothing as None, or another word")
-
-
-def identity(frame: pd.DataFrame, key: Sequence[str]) -> pd.Series:
-    """Key of each row as one text, with numbers as written to CSV, so that old and new rows compare."""
-    texts = frame[list(key)].map(as_text)
-    return texts.agg(", ".join, axis=1)
-
-
-def as_text(value: Any) -> str:
-    """A number as written to CSV (9 digits; whole numbers in full), anything else as it is."""
-    if not isinstance(value, Real):
-        return str(value)
-    whole = float(value).is_integer()
-    return f"{value:.0f}" if whole else DIGITS % value
 
 
 def head(command: str) -> list[str]:
