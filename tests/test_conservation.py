@@ -7,8 +7,7 @@ import studies.conservation.cases as conservation
 from continuum.fluid import IdealGas
 from particles.fields import Fields
 from particles.integral.points import lattice
-from particles.weights import Monaghan
-from studies.conservation.drift import MODES, PLATES, MovingDrift
+from studies.conservation.drift import MODES, PLATES
 from studies.conservation.sums import Unsymmetric, random_fields, sizes
 
 
@@ -52,11 +51,3 @@ def test_plates_with_friction_take_momentum_and_without_it_none():
                               for mode in (MODES[0], MODES[-1]))
     assert with_friction["momentum"] > 1e-2 and with_friction["mass"] < 1e-14
     assert with_friction["claimed"] == "mass" and largest(without) < 1e-14
-
-
-@pytest.mark.parametrize(("more", "pairs"), [
-    ({"steps": 60, "wall": PLATES}, False), ({"weight": Monaghan}, True)])
-def test_moving_points_keep_what_they_claim_until_they_pair(more, pairs):
-    columns = row(MovingDrift(**more))
-    assert 60 <= columns["reached"] and (columns["reached"] < columns["steps"]) == pairs
-    assert max(columns[name] for name in columns["claimed"].split()) < 1e-14
