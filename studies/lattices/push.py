@@ -105,17 +105,11 @@ class Corrected(Push):
         return term, flux
 
 
-class OfToday(Push):
-    """Today's sums with the force; the stress of their pressures is not measured."""
-
-    def tensor(self) -> np.ndarray:
-        return np.zeros((3, len(self.around.x)))
-
-
 #: class of sums -> the same with the force
-PUSHED = {kind: type(kind.__name__, (OfToday, kind), {name: getattr(kind, name) for name in (
-    "allocate", "prepare", "exchange", "gradients", "symbol")}) for kind in (
-        spam.TODAY[name].transport for name in MAKERS)}
+PUSHED = {Nested: Push, Direct: PushAlong} | {
+    kind: type(kind.__name__, (Push, kind), {name: getattr(kind, name) for name in (
+        "allocate", "prepare", "exchange", "gradients", "symbol")})
+    for kind in (spam.TODAY[name].transport for name in MAKERS) if kind is not Direct}
 
 
 def moments(sums: Nested) -> np.ndarray:
