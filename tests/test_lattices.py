@@ -16,7 +16,7 @@ from studies.kit.table import Tables
 from studies.lattices.cases import HEXAGONAL as GAS
 from studies.lattices.cases import SQUARE as SQUARE_GAS
 from studies.lattices.claims import CLAIMS, NO_PRESSURE, SPINODAL
-from studies.lattices.crystals import LATTICES, Crystal, Debye, Speed, derivatives, sums
+from studies.lattices.crystals import LATTICES, Crystal, Debye, derivatives, sums
 from studies.lattices.frozen_flow import SCENE, criteria, fastest, neighbours
 
 HEXAGONAL, SQUARE = LATTICES["hexagonal"], LATTICES["square"]
@@ -100,20 +100,6 @@ def test_freezing_without_a_step_and_with_the_fastest_point():
     value, err = asked["khp95-hard-freezing-melting-limit"](tables)
     assert value == pytest.approx(2, rel=1e-6) and err == pytest.approx(0.75, rel=0.01)
     assert asked["khp95-hard-freezing-fastest-limit"](tables).value == pytest.approx(1, rel=1e-4)
-
-
-# --- sound ------------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("weight", [Lucy, Monaghan])
-def test_long_sound_has_the_speed_that_its_frequency_says(weight):
-    """Of the sums of the step limit, a wave of 400 spacings: dispersion is of the square of 2 pi 3/400."""
-    k = 2*np.pi/400
-    known = lattice_sums(weight.of(h=3.0), 1.0, 1.0, np.array([[k, 0.0]]))
-    # an ideal gas at T = 1: c^2 = 2 P/rho, so that only D is left
-    omega2 = 2/known.rho*known.D[0, 0, 0]
-    speed = rows_of(Speed(lattice=SQUARE, weight=weight), "sound_speeds")[0]["speed"]
-    assert speed == pytest.approx(np.sqrt(omega2)/k/np.sqrt(2), rel=2e-3)
 
 
 # --- Debye's spectrum --------------------------------------------------------------------------------

@@ -8,7 +8,7 @@ from particles.weights import Lucy, Monaghan, Weight, WendlandC2, WendlandC4
 from studies.build.spam import TODAY, VARIANTS, Variant
 from studies.kit.case import Case
 from studies.kit.table import Table
-from studies.lattices.crystals import LATTICES, Crystal, Debye, Onset, Speed
+from studies.lattices.crystals import LATTICES, Crystal, Debye, Onset
 from studies.lattices.frozen_flow import Fastest, Freezing
 from studies.lattices.loss import Thickened
 from studies.lattices.push import MAKERS, PLATES, SHEARED
@@ -43,7 +43,7 @@ def cases(size: str) -> list[Case]:
 
 def quick() -> Iterator[Case]:
     """A few cases of each kind."""
-    yield from (*list(onsets())[::9], *speeds(), *spectra())
+    yield from (*list(onsets())[::9], *spectra())
     for U, variant in product((0.05, 0.1, 0.2), ("printed", "less-static-50")):
         yield Stirred(variant=VARIANTS[variant], rows=25, U=U, time=3.0)
     yield Stirred(variant=VARIANTS["less-static-90"], mode=PLATES, rows=25, time=3.0)
@@ -52,7 +52,7 @@ def quick() -> Iterator[Case]:
 
 def paper() -> Iterator[Case]:
     """All cases with all seeds."""
-    yield from (*onsets(), *freezing(), *speeds(), *spectra())
+    yield from (*onsets(), *freezing(), *spectra())
     yield from (*stirred(), *aligned(), *ranges(), *(Thickened(ra=ra) for ra in RAYLEIGH), *makers())
 
 
@@ -72,12 +72,6 @@ def freezing() -> Iterator[Case]:
     yield Fastest()
 
 
-def speeds() -> Iterator[Case]:
-    """Speeds of sound on lattices."""
-    for lattice, weight in product(LATTICES.values(), WEIGHTS):
-        yield Speed(lattice=lattice, weight=weight)
-
-
 def spectra() -> Iterator[Case]:
     """Numbers of long waves on lattices."""
     for crystal, kind, h in product((HEXAGONAL, SQUARE), WEIGHTS, (2.5, 3.0, 4.0, 5.0, 6.0)):
@@ -85,7 +79,7 @@ def spectra() -> Iterator[Case]:
 
 
 def stirred() -> Iterator[Stirred]:
-    """Stirred vortices: forces, rows, viscosities, pressures, steps, weights; corrected sums."""
+    """Stirred vortices: forces, rows, viscosities, pressures, weights."""
     printed = VARIANTS["printed"]
     forces, few = (0.02, 0.05, 0.1, 0.2, 0.4), (0.1, 0.2, 0.4)
     for rows, U, seed in (*product((25,), forces, SEEDS), *product((50,), forces, SEEDS[:2]),
@@ -96,8 +90,6 @@ def stirred() -> Iterator[Stirred]:
     for seed in SEEDS:
         for thick in (0.4, 2.0, 4.0):
             yield Stirred(variant=printed, rows=25, thick=thick, seed=seed)
-        yield Stirred(variant=printed, rows=25, seed=seed, corrected=True)
-    yield Stirred(variant=printed, rows=50, corrected=True)
 
 
 def aligned() -> Iterator[Stirred]:
@@ -150,19 +142,16 @@ FREEZING_LIMITS = Table.of("freezing_limits", "weight seed step", "measured meas
 FREEZING_FLOW = Table.of("freezing_flow", "ra rows", "fastest",
                          means={"fastest": ("largest v^2 over 2 K", "")},
                          about="How uneven the grid's flow of that gas is.")
-SPEEDS = Table.of("sound_speeds", "lattice weight", "speed", about="The longest waves along x on a lattice.",
-                  means={"speed": ("speed of sound over the fluid's", "")})
 DEBYE = Table.of("debye", CRYSTAL, "sound shear",
                  about="Long waves on a lattice: their number below a frequency over that of the fluid's.",
                  means={"sound": ("of the faster ones", ""),
                         "shear": ("of the slower ones, if none grows", "")})
 OVER = "over that of the exact flow"
 DRIVEN = Table.of(
-    "driven", "variant h corrected rows seed mode walls U thick P",
+    "driven", "variant h rows seed mode walls U thick P",
     "flow flow_err excess excess_err stress stress_err kinetic kinetic_err friction symbol slip",
     about="A flow that a force holds, without gravity or heat: who bears the force. Stresses are amplitudes.",
     means={"mode": ("stirred: vortices; sheared: along x; plates: along x between plates", ""),
-           "corrected": ("pressures times the inverse of M_i", ""),
            "walls": ("what is behind plates, in the mode plates", ""),
            "U": ("amplitude of the exact flow", "a/t0"), "thick": ("viscosity over rows/100", ""),
            "P": ("part of the static pressure that the sums hold", "epsilon/a^2"),
@@ -187,4 +176,4 @@ FORETOLD = Table.of(
     means={"x": ("viscosity that the law makes, over the given one; none: all rests", ""),
            "slip": ("slip length of the plates", "a"), "bulk": ("K by the law, without slip", ""),
            "predicted": ("K by law and slip", ""), "measured": ("Kg of results/rb/errors.csv", "")})
-TABLES = (ONSETS, FREEZING, FREEZING_LIMITS, FREEZING_FLOW, SPEEDS, DEBYE, DRIVEN, THICKENED, LAWS, FORETOLD)
+TABLES = (ONSETS, FREEZING, FREEZING_LIMITS, FREEZING_FLOW, DEBYE, DRIVEN, THICKENED, LAWS, FORETOLD)

@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy.optimize import brentq
 
-from continuum.fluid import IdealGas, energy, pressure, pressure_slopes
+from continuum.fluid import energy, pressure, pressure_slopes
 from particles.limits import step_limit
 from particles.observe import particle_kinetic
 from particles.run import STUDIES, Divergence, Plan, run
@@ -122,7 +122,6 @@ SHIFT = 1e-8                    # displacements at the start, spacings
 GROWN = 100.0                   # factor of the energy that counts as growth in the search for the onset
 PATIENCE = 200.0                # duration of runs of a search: ln 10/200 is a rate of 0.012
 HALVINGS = 8
-LONG = 1000.0                   # wavelength in spacings: sound has the speed of the longest waves to 1e-5
 SMALL = 1e-3                    # wave number that counts as zero
 C2 = 2.0                        # of the ideal gas at T = 1
 DIRECTIONS = np.linspace(0, np.pi, 24, endpoint=False)
@@ -183,18 +182,6 @@ class Crystal:
 
 
 # --- cases ----------------------------------------------------------------------------------------
-
-
-class Speed(Case, table="sound_speeds", same="lattice weight"):
-    """Speed of the longest waves along x over the fluid's, ideal gas at T = 1, h = 3 spacings."""
-    lattice: Lattice
-    weight: Any
-
-    def measure(self, report: Report) -> Iterator[Row]:
-        crystal = Crystal(lattice=self.lattice, cells=(1, 1), weight=self.weight, h=3.0, eos=IdealGas())
-        k = 2*np.pi/LONG
-        M = crystal.matrices(np.array([[k, 0.0]]))
-        yield {"speed": np.sqrt(M[0, 0, 0]/C2)/k}
 
 
 class Debye(Case, table="debye"):

@@ -109,7 +109,7 @@ def lawful(kind: Variant) -> tuple:
 
 def fitted(driven: pd.DataFrame) -> pd.DataFrame:
     """Stirred runs that laws are fitted to, with name of the law, J = eta gamma/P and tau, stress over P."""
-    usual = driven.query("mode == 'stirred' and not corrected and flow > 0.1")
+    usual = driven.query("mode == 'stirred' and flow > 0.1")
     known = usual[usual.h == [KINDS[name].h for name in usual.variant]]
     stress = known.stress.where(~known.variant.isin(MAKERS), known.excess)
     return known.assign(law=known.variant.map(family), J=known.friction/known.P, tau=stress/known.P)

@@ -25,7 +25,7 @@ from studies.build.scenes import Tile
 from studies.kit.case import Case, Report
 from studies.kit.stats import Measured, mean, with_errors
 from studies.kit.table import Row
-from studies.lattices.push import MAKERS, PLATES, PUSHED, STIRRED, Corrected, Driven, Mode, stresses
+from studies.lattices.push import MAKERS, PLATES, PUSHED, STIRRED, Driven, Mode, stresses
 
 SETTLED = 1/3           # part of a run before means are taken: at least three turns of the flow
 LOOKS = 10              # samples in the time in which friction slows a flow by e
@@ -81,16 +81,15 @@ def slip_length(rows: np.ndarray, h: float) -> float:
     return float(s*L/(np.pi*V))
 
 
-class Stirred(Case, table="driven", same="variant mode rows U thick corrected seed"):
+class Stirred(Case, table="driven", same="variant mode rows U thick seed"):
     """One flow. U : exact amplitude, as at the start. thick : eta over that of Ra 10 000. time : duration in
-    times of friction. corrected : whether with the sums of `Corrected`."""
+    times of friction."""
     variant: Any
     mode: Mode = STIRRED
     rows: int
     U: float = 0.2
     thick: float = 1.0
     time: float = 8.0
-    corrected: bool = False
     seed: int = 1
 
     @property
@@ -100,7 +99,7 @@ class Stirred(Case, table="driven", same="variant mode rows U thick corrected se
     @property
     def cost(self) -> float:
         steps = self.time*self.rows/(ETA*4*self.thick*self.mode.halves**2*self.mode.n)
-        return 0.2 + 7e-7*(1 + 9*self.corrected)*self.variant.h*self.width*self.rows*steps
+        return 0.2 + 7e-7*self.variant.h*self.width*self.rows*steps
 
     @property
     def method(self) -> Driven:
@@ -109,7 +108,7 @@ class Stirred(Case, table="driven", same="variant mode rows U thick corrected se
         scene = kind(width=float(self.width), L=float(self.rows), law=ConstEta(eta, eta))
         plain = spam.method(scene, self.variant)
         values = {one.name: getattr(plain, one.name) for one in fields(Spam)}
-        values["transport"] = Corrected if self.corrected else PUSHED[self.variant.transport]
+        values["transport"] = PUSHED[self.variant.transport]
         return Driven(**values, mode=self.mode, U=self.U)
 
     def measure(self, report: Report) -> Iterator[Row]:
