@@ -4,7 +4,6 @@ from dataclasses import replace
 import numpy as np
 import pandas as pd
 import pytest
-from scenes import rows_of
 
 from continuum.fluid import IdealGas, VanDerWaals, pressure
 from continuum.gas.fields import NodeFields, Values, nodes
@@ -12,11 +11,9 @@ from particles.limits import lattice_sums
 from particles.threads import Threads
 from particles.weights import Lucy, Monaghan, WendlandC2
 from studies.build.spam import at_rest, fluid
-from studies.kit.table import Tables
 from studies.lattices.cases import HEXAGONAL as GAS
-from studies.lattices.cases import SQUARE as SQUARE_GAS
-from studies.lattices.claims import CLAIMS, NO_PRESSURE, SPINODAL
-from studies.lattices.crystals import LATTICES, Crystal, Debye, derivatives, sums
+from studies.lattices.claims import NO_PRESSURE, SPINODAL
+from studies.lattices.crystals import LATTICES, Crystal, derivatives, sums
 from studies.lattices.frozen_flow import SCENE, criteria, fastest, neighbours
 
 HEXAGONAL, SQUARE = LATTICES["hexagonal"], LATTICES["square"]
@@ -89,19 +86,6 @@ def test_fastest_point_of_waves_has_four_times_the_mean():
     assert fastest(NodeFields(SCENE, x[0], y[:, 0], at, still)) == pytest.approx(4, rel=2e-3)
 
 
-def test_freezing_without_a_step_and_with_the_fastest_point():
-    """2 + 3 step^(1/2) of the rule's pressure; the fastest point has 2 <v^2>."""
-    ratio = {step: 2 + 3*step**0.5 for step in (1.0, 1/4, 1/16)}
-    limits = pd.DataFrame([{"weight": "Lucy", "seed": seed, "step": step, "measured": value, "melting": 1.0,
-                            "measured_err": 0.01} for step, value in ratio.items() for seed in (1, 2)])
-    flow = pd.DataFrame({"ra": 3000.0, "rows": [16, 24, 32], "fastest": 2 + 1/np.array([16, 24, 32])**2})
-    tables = Tables({"freezing_limits": limits, "freezing_flow": flow})
-    asked = {claim.id: claim.value for claim in CLAIMS if "freezing-" in claim.id}
-    value, err = asked["khp95-hard-freezing-melting-limit"](tables)
-    assert value == pytest.approx(2, rel=1e-6) and err == pytest.approx(0.75, rel=0.01)
-    assert asked["khp95-hard-freezing-fastest-limit"](tables).value == pytest.approx(1, rel=1e-4)
-
-
 # --- Debye's spectrum --------------------------------------------------------------------------------
 
 STABLE = replace(GAS, h=2.5, cells=(5, 4))
@@ -133,10 +117,3 @@ def test_frequencies_are_those_of_the_hessian_of_all_particles():
     assert whole[:2] == pytest.approx(0, abs=1e-8)      # all particles alike
     # wave vectors of two rectangular zones: each motion is there twice
     assert np.sort(found.ravel()) == pytest.approx(np.repeat(whole[2:], 2), abs=1e-7)
-
-
-@pytest.mark.parametrize("crystal", [GAS, SQUARE_GAS])
-@pytest.mark.parametrize("weight", [Lucy, WendlandC2])
-def test_wide_ranges_have_the_sound_of_the_fluid(crystal, weight):
-    wide = rows_of(Debye(crystal=replace(crystal, weight=weight, h=7.0)), "debye")[0]
-    assert wide["sound"] == pytest.approx(1, abs=0.02)
