@@ -7,6 +7,7 @@ from particles.integral.edge_makers import MAKERS, exact, plain
 from particles.integral.points import Points, jittered, lattice
 from particles.integral.rr98_moving_plain import MOTIONS
 from particles.weights import Lucy, WendlandC2
+from studies.build.setting import DISORDERS
 from studies.conservation.forces import (
     STILL,
     VISCOUS,
@@ -27,7 +28,7 @@ def torque(x, f):
 
 
 def torques(maker, points="jittered-0.3", seed=4):
-    case = EdgeTorque(make=MAKERS[maker], points=points, seed=seed)
+    case = EdgeTorque(maker=MAKERS[maker], points=DISORDERS[points], seed=seed)
     return {row["exchange"]: row["torque"] for row in rows_of(case, "torques")}
 
 
@@ -73,13 +74,13 @@ def test_crossed_pressure_turns_by_a_product_of_differences():
 
 @pytest.mark.parametrize("motion", MOTIONS)
 def test_motions_keep_angular_momentum_where_masses_stay(motion):
-    case = MotionTorque(motion=motion, kind=MOTIONS[motion], law=STILL)
+    case = MotionTorque(motion=motion, law=STILL)
     torque = rows_of(case, "motion_torques")[0]["torque"]
     assert torque < ZERO if motion in ("carried", "constant-mass") else torque > BROKEN
 
 
 def test_smooth_particles_push_along_pairs_and_rub_across():
-    found = [rows_of(MotionTorque(motion="spam", kind=None, law=law), "motion_torques")[0]["torque"]
+    found = [rows_of(MotionTorque(motion="spam", law=law), "motion_torques")[0]["torque"]
              for law in (STILL, VISCOUS)]
     assert found[0] < ZERO and found[1] > BROKEN
 

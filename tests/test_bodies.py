@@ -140,16 +140,11 @@ def test_bodies_that_touch_do_not_rub():
     assert np.abs(sums.received[~outer, 0]).min() > 0.01
 
 
-AT = lattice((10, 12))
-
-
 @pytest.mark.parametrize(("make", "words"), [
     (lambda: held(np.empty(0, int)), "0 points are to be held"),
     (lambda: held([-1]), r"whole numbers from 0 on, got \[-1\]"),
     (lambda: held(np.array([4, 4, 5])), "3 points are to be held, 2 of them different"),
     (lambda: held(np.array([1]), T=-1.0), "T = -1, which must be positive"),
-    (lambda: in_disc(AT, 4.5), r"radius 4\.5 in a box"),
-    (lambda: with_surface((10, 12), 0.3), r"radius 0\.3"),
     (lambda: stream(chi=-0.1), r"chi must not be negative, got -0\.1"),
     (lambda: stream().start(5, Threads(1)), "a state of 5 points")])
 def test_bad_bodies_are_refused(make, words):

@@ -3,8 +3,9 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from studies.cost import STUDY, cases, derive
+from studies.cost import STUDY, cases, tables
 from studies.cost.tables import GRID, LATTICE
+from studies.kit.fits import crossing
 from studies.kit.table import Tables
 
 
@@ -15,11 +16,11 @@ def lines(scale: dict[str, float]) -> Tables:
              "setup_s": 0.0, "run_s_err": 1e-3*factor*n**3, "setup_s_err": 0.0}
             for name, factor in scale.items() for n in (4, 8, 16, 24)]
     runs, only = pd.DataFrame(rows), ["quantity", "error", "error_err", "share"]
-    return Tables(errors=runs[[*derive.A_RUN, *only]], runs=runs.drop(columns=only))
+    return Tables(errors=runs[[*tables.A_RUN, *only]], runs=runs.drop(columns=only))
 
 
 def test_cost_at_a_level_is_that_of_the_power_law():
-    rows = derive.errors(lines({GRID: 1.0, LATTICE: 3.0}))["needed"]
+    rows = tables.derived(lines({GRID: 1.0, LATTICE: 3.0}))["needed"]
     needed = pd.DataFrame(rows).set_index(["method", "level"])
     row = needed.loc[(GRID, 0.01)]
     assert row["reached"] == "yes" and row["cpu_s"] == pytest.approx(1000, rel=1e-9)       # n = 10
@@ -34,13 +35,13 @@ def test_the_interval_of_a_crossing_is_that_of_errors_in_all_four_numbers(level)
     """Each shifted by a thousandth of its error: the logarithm is straight that near to 1e-3."""
     pair = pd.DataFrame({"error": [0.04, 0.005], "error_err": [2e-3, 4e-4], "cpu_s": [1.0, 9.0],
                          "cpu_s_err": [0.05, 0.6]})
-    value, half = derive.crossing(pair, "cpu_s", level)
+    value, half = crossing(pair, "cpu_s", level)
     shifts = []
     for column in ("error", "cpu_s"):
         for row in (0, 1):
             other = pair.copy()
             other.loc[row, column] += 1e-3*pair.loc[row, f"{column}_err"]
-            shifts.append(np.log(derive.crossing(other, "cpu_s", level)[0]/value)*1e3)
+            shifts.append(np.log(crossing(other, "cpu_s", level)[0]/value)*1e3)
     assert np.linalg.norm(shifts) == pytest.approx(half, rel=1e-3)
 
 
@@ -53,7 +54,7 @@ def test_all_cases_together_take_what_was_planned_alone_on_the_machine():
 def test_a_resolution_at_which_a_seed_diverged_has_no_mean():
     made = lines({GRID: 1.0})
     lost = made["errors"].iloc[:1].assign(seed=2, quantity="diverged", error=np.nan)
-    means = derive.over_seeds(pd.concat([made["errors"], lost]), made["runs"], pd.DataFrame())
+    means = tables.over_seeds(pd.concat([made["errors"], lost]), made["runs"], pd.DataFrame())
     assert means["resolution"].tolist() == [8, 16, 24]
 
 
@@ -61,7 +62,7 @@ def test_lammps_is_judged_by_its_own_fluid_where_it_was_timed(tmp_path, monkeypa
     (tmp_path/"bench").mkdir()
     rows = "rheo,16,K,3,0.2,2", "rheo,16,seconds,5,0.5,", "rheo,25,K,2,0.1,2", "rheo-RK1,16,K,3,0.2,2"
     (tmp_path/"bench"/"lammps.csv").write_text("\n".join(("style,rows,quantity,value,err,expected", *rows)))
-    monkeypatch.setattr(derive, "RESULTS", tmp_path)
-    [row] = derive.lammps()
+    monkeypatch.setattr(tables, "RESULTS", tmp_path)
+    [row] = tables.lammps()
     assert (row["method"], row["points"]) == ("LAMMPS RHEO", 512)
     assert [row[name] for name in ("error", "error_err", "cpu_s", "cpu_s_err")] == [0.5, 0.1, 5, 0.5]

@@ -1,4 +1,6 @@
 """What the study of cost runs: steps that space allows, seconds and bytes, exact answers, small runs."""
+from dataclasses import replace
+
 import numpy as np
 import pandas as pd
 import pytest
@@ -8,12 +10,9 @@ from particles.run import Divergence
 from studies.build import variant
 from studies.cost import tables
 from studies.cost.cases import CONTESTS
-from studies.cost.derive import growth_laws
 from studies.cost.problem import HALVINGS, STRETCH, STRETCHES, WORTH, Problem, Result, best, climb, rms
-from studies.cost.race import Race
 from studies.cost.rolls import (
     END,
-    LATE,
     OFTEN,
     SETTLED,
     Followed,
@@ -23,8 +22,7 @@ from studies.cost.rolls import (
     reference,
 )
 from studies.cost.seconds import Flock, TwoThreads, per_step
-from studies.cost.solvers import SolverRace, SpectralRace
-from studies.cost.tables import GRID, LATTICE, MAC, NEAREST, PYPDE, SPECTRAL, WIDE
+from studies.cost.tables import GRID, LATTICE, MAC, NEAREST, PYPDE, SPECTRAL, WIDE, growth_laws
 
 COLUMNS = {table.name: table.columns for table in tables.TABLES}
 
@@ -132,7 +130,7 @@ def test_one_and_two_threads_take_turns_and_give_what_the_speed_up_reads(monkeyp
         order.append(flock.threads)
         return np.full(count, 3.0 - flock.threads + 10*(len(order) < 3))
     monkeypatch.setattr(Flock, "laps", laps)
-    case = TwoThreads(name="a", variant=variant("spam"), rows=12, turns=3)
+    case = TwoThreads(method="a", variant=variant("spam"), rows=12, turns=3)
     rows = case.run(lambda done: None, None).rows["growth"]
     assert order == [1, 2]*4          # the first turns, which take longer, do not count
     assert set(rows[0]) == set(COLUMNS["growth"]) and {row["clock"] for row in rows} == {"wall"}
@@ -140,32 +138,34 @@ def test_one_and_two_threads_take_turns_and_give_what_the_speed_up_reads(monkeyp
     assert law["what"] == "two threads" and law["value"] == pytest.approx(2)
 
 
-def rows_of(kind, scene, name, size):
-    """Rows of one case that is timed as shortly as possible, and its error of the velocity."""
-    case = kind(scene=scene, entry=CONTESTS[scene].entry(name), resolution=size, short=1e-5)
+def race(scene, name, size):
+    """A race that is timed as shortly as possible."""
+    return next(CONTESTS[scene].cases(scene, [name], [size], short=1e-5))
+
+
+def rows_of(case):
+    """Rows of a case, and its errors by quantity."""
     rows = case.run(lambda done: None, None).rows
-    velocity, = (row["error"] for row in rows["errors"] if row["quantity"] == "velocity")
-    return rows, velocity
+    return rows, {row["quantity"]: row["error"] for row in rows["errors"]}
 
 
-@pytest.mark.parametrize("kind, name, share", [
-    (Race, NEAREST, 1/12), (Race, MAC, 1/12), (SolverRace, PYPDE, 1/12), (Race, GRID, 1/3)])
-def test_errors_in_a_slow_vortex_are_those_of_friction(kind, name, share):
+@pytest.mark.parametrize("name, share", [(NEAREST, 1/12), (MAC, 1/12), (PYPDE, 1/12), (GRID, 1/3)])
+def test_errors_in_a_slow_vortex_are_those_of_friction(name, share):
     """Between nearest neighbours (ka)^2/12, over cells of twice the size (ka)^2/3: a decay is off so much.
 
     2 %: the terms of next order, (ka)^2/15 and less."""
-    rows, velocity = rows_of(kind, "taylor-green", name, 16)
-    assert velocity == pytest.approx(share*(2*np.pi/16)**2, rel=0.02)
+    rows, errors = rows_of(race("taylor-green", name, 16))
+    assert errors["velocity"] == pytest.approx(share*(2*np.pi/16)**2, rel=0.02)
     row, = rows["runs"]
     assert set(row) == set(COLUMNS["runs"]) and row["run_s"] > 0 and row["setup_s"] > 0
 
 
 def test_convection_of_pypde_is_of_second_order():
     """Between 8 and 16 rows; 0.3: terms of fourth order are a tenth of the error at 8."""
-    entry, errors = CONTESTS["convection"].entry(PYPDE)._replace(flow=HeatedLayer(rows=(16, 24, 32))), []
+    flow, errors = HeatedLayer(rows=(16, 24, 32)), []
     for rows in (8, 16):
-        made = SolverRace(scene="convection", entry=entry, resolution=rows).run(lambda done: None, None).rows
-        errors += [row["error"] for row in made["errors"] if row["quantity"] == "K"]
+        made, error = rows_of(replace(race("convection", PYPDE, rows), flow=flow))
+        errors.append(error["K"])
         assert 0 < made["errors"][0]["share"] < 1
     assert np.log2(errors[0]/errors[1]) == pytest.approx(2, abs=0.3)
 
@@ -174,9 +174,8 @@ def test_convection_of_pypde_is_of_second_order():
 @pytest.mark.parametrize("name", [GRID, NEAREST, LATTICE, WIDE])
 def test_errors_between_plates_are_of_second_order(scene, name):
     """Between 48 and 96 rows. 0.2: terms of fourth order are 16 % of the error of heat at 48, h = 3 a."""
-    entry = CONTESTS[scene].entry(name)
-    problems = (entry.make(entry.flow, entry.method, rows, 1) for rows in (48, 96))
-    coarse, fine = (rms(*problem.result(entry.first).residuals.values()) for problem in problems)
+    races = (race(scene, name, rows) for rows in (48, 96))
+    coarse, fine = (rms(*one.made().result(one.first).residuals.values()) for one in races)
     assert np.log2(coarse/fine) == pytest.approx(2, abs=0.2)
 
 
@@ -190,14 +189,6 @@ def test_a_state_is_steady_once_it_stays_as_near_as_its_error(fraction):
     assert needed == pytest.approx(np.log(1/fraction) + 0.5, abs=0.5)
 
 
-def test_averages_begin_where_what_is_left_of_the_start_is_below_a_fifth_of_a_percent():
-    """K = 1 + a transient like the grid's, 2.4 % at 40: from there on its swings make a wider interval."""
-    done = Followed(T, 1 + 0.024*np.exp(-0.11*(T - 40))*np.cos(0.6*(T - 40)), None)
-    early, late = (HeatedLayer(late=at).last(done) for at in (LATE, SETTLED))
-    assert abs(late.value - 1) < 2e-4 and 3*late.err < early.err
-    assert HeatedLayer().last(done) == (done.ke[-1], 0.0)
-
-
 def test_flows_that_fluctuate_count_the_time_that_their_average_needs():
     """A flow that is steady at once needs the time until it is averaged only as far as its error asks for."""
     done = Followed(T, 1 + 0.01*np.random.default_rng(1).normal(size=len(T)), None)
@@ -207,10 +198,11 @@ def test_flows_that_fluctuate_count_the_time_that_their_average_needs():
 
 def test_the_spectral_method_errs_exponentially_less_with_more_functions():
     """K of 4, 8, 12 functions: a third with every four would be second order; `paper` goes on to 1e-9."""
-    rows = {n: rows_of(SpectralRace, "convection", SPECTRAL, n)[0] for n in (4, 8, 12)}
-    errors = [abs(row["error"]) for n in rows for row in rows[n]["errors"] if row["quantity"] == "K"]
+    found = [rows_of(race("convection", SPECTRAL, n)) for n in (4, 8, 12)]
+    errors = [abs(error["K"]) for _, error in found]
     assert errors[2] < errors[1]/10 < errors[0]/100 and errors[2] > 1e-6
-    assert set(rows[12]["runs"][0]) == set(COLUMNS["runs"]) and rows[12]["runs"][0]["run_s"] > 0
+    row, = found[2][0]["runs"]
+    assert set(row) == set(COLUMNS["runs"]) and row["run_s"] > 0
 
 
 def test_rolls_are_compared_where_velocities_differ_least():

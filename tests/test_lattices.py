@@ -1,10 +1,9 @@
-"""Lattices against the sums that run: motions that grow, freezing, sound."""
+"""Lattices against the sums that run: motions that grow, freezing, sound, waves as many as Debye has them."""
 from dataclasses import replace
 
 import numpy as np
 import pandas as pd
 import pytest
-from scenes import rows_of
 
 from continuum.fluid import IdealGas, VanDerWaals, pressure
 from continuum.gas.fields import NodeFields, Values, nodes
@@ -12,9 +11,9 @@ from particles.limits import lattice_sums
 from particles.threads import Threads
 from particles.weights import Lucy, Monaghan, WendlandC2
 from studies.build.spam import at_rest, fluid
-from studies.kit.table import Tables
-from studies.lattices.claims import CLAIMS, NO_PRESSURE, SPINODAL
-from studies.lattices.crystals import LATTICES, Crystal, LatticeGrowth, Speed, sums
+from studies.lattices.cases import HEXAGONAL as GAS
+from studies.lattices.claims import NO_PRESSURE, SPINODAL
+from studies.lattices.crystals import LATTICES, Crystal, derivatives, sums
 from studies.lattices.frozen_flow import SCENE, criteria, fastest, neighbours
 
 HEXAGONAL, SQUARE = LATTICES["hexagonal"], LATTICES["square"]
@@ -48,13 +47,6 @@ def test_least_stable_motion_is_pushed_as_its_eigenvalue_says(weight, eos):
     kernel.rates(state, out)
     # squares of shifts
     np.testing.assert_allclose(out[2:4, np.argsort(ids)].T, -square*u, atol=2e-4*abs(square)*shift + 1e-9)
-
-
-def test_a_motion_that_grows_does_so_at_its_rate():
-    crystal = Crystal(lattice=HEXAGONAL, cells=(8, 5), weight=Monaghan, h=2.8, eos=IdealGas())
-    row = rows_of(LatticeGrowth(crystal=crystal), "growth")[0]
-    assert row["predicted"] > 0.3 and row["measured"] == pytest.approx(row["predicted"], rel=1e-3)
-    assert replace(crystal, h=2.2).motion.rate < 0
 
 
 def test_van_der_waals_limits_by_hand():
@@ -94,28 +86,34 @@ def test_fastest_point_of_waves_has_four_times_the_mean():
     assert fastest(NodeFields(SCENE, x[0], y[:, 0], at, still)) == pytest.approx(4, rel=2e-3)
 
 
-def test_freezing_without_a_step_and_with_the_fastest_point():
-    """2 + 3 step^(1/2) of the rule's pressure; the fastest point has 2 <v^2>."""
-    ratio = {step: 2 + 3*step**0.5 for step in (1.0, 1/4, 1/16)}
-    limits = pd.DataFrame([{"weight": "Lucy", "seed": seed, "step": step, "measured": value, "melting": 1.0,
-                            "measured_err": 0.01} for step, value in ratio.items() for seed in (1, 2)])
-    flow = pd.DataFrame({"ra": 3000.0, "rows": [16, 24, 32], "fastest": 2 + 1/np.array([16, 24, 32])**2})
-    tables = Tables({"freezing_limits": limits, "freezing_flow": flow})
-    asked = {claim.id: claim.value for claim in CLAIMS if "freezing-" in claim.id}
-    value, err = asked["khp95-hard-freezing-melting-limit"](tables)
-    assert value == pytest.approx(2, rel=1e-6) and err == pytest.approx(0.75, rel=0.01)
-    assert asked["khp95-hard-freezing-fastest-limit"](tables).value == pytest.approx(1, rel=1e-4)
+# --- Debye's spectrum --------------------------------------------------------------------------------
+
+STABLE = replace(GAS, h=2.5, cells=(5, 4))
 
 
-# --- sound ------------------------------------------------------------------------------------------
+def hessian(crystal):
+    """Of the sum of 2 P/rho^2 w over pairs, which the sums of P = rho^2 are [KHP95, Sec. III]; (2 n, 2 n)."""
+    x, box = crystal.lattice.places(crystal.cells), np.array(crystal.lattice.box(crystal.cells))
+    weight, n = crystal.weight.of(h=crystal.h), len(x)
+    H = np.zeros((n, n, 2, 2))
+    for i, j in zip(*np.triu_indices(n, 1), strict=True):
+        r = x[j] - x[i] - box*np.round((x[j] - x[i])/box)
+        if np.hypot(*r) < crystal.h:
+            _, slope, curvature = derivatives(weight, np.hypot(*r))
+            along = np.outer(r, r)/(r@r)
+            pair = slope*(np.eye(2) - along) + curvature*along
+            H[i, i] += pair
+            H[j, j] += pair
+            H[i, j] = H[j, i] = -pair
+    return H.transpose(0, 2, 1, 3).reshape(2*n, 2*n)
 
 
-@pytest.mark.parametrize("weight", [Lucy, Monaghan])
-def test_long_sound_has_the_speed_that_its_frequency_says(weight):
-    """Of the sums of the step limit, a wave of 400 spacings: dispersion is of the square of 2 pi 3/400."""
-    k = 2*np.pi/400
-    known = lattice_sums(weight.of(h=3.0), 1.0, 1.0, np.array([[k, 0.0]]))
-    # an ideal gas at T = 1: c^2 = 2 P/rho, so that only D is left
-    omega2 = 2/known.rho*known.D[0, 0, 0]
-    speed = rows_of(Speed(lattice=SQUARE, weight=weight), "sound_speeds")[0]["speed"]
-    assert speed == pytest.approx(np.sqrt(omega2)/k/np.sqrt(2), rel=2e-3)
+def test_frequencies_are_those_of_the_hessian_of_all_particles():
+    lattice, weight = STABLE.lattice, STABLE.weight.of(h=STABLE.h)
+    rho = sum(derivatives(weight, r)[0] for r in np.hypot(*lattice.neighbours(STABLE.h).T)) + 5/(np.pi*2.5**2)
+    found = STABLE.squares(lattice.vectors(STABLE.cells))
+    # P = rho e: 2 P/rho^2 = 2/rho at e = 1
+    whole = np.linalg.eigvalsh(hessian(STABLE))*2/rho
+    assert whole[:2] == pytest.approx(0, abs=1e-8)      # all particles alike
+    # wave vectors of two rectangular zones: each motion is there twice
+    assert np.sort(found.ravel()) == pytest.approx(np.repeat(whole[2:], 2), abs=1e-7)

@@ -5,29 +5,17 @@ every weight. Other transports have one weight, and every weight on one point se
 two values of two factors occur together in some run, if they can: Delaunay edges have no weight; on a lattice
 closed and exact edges are plain ones times a number. Size `paper` takes a quarter of an hour on one core.
 """
-from collections.abc import Iterator
-from dataclasses import replace
+from collections.abc import Callable, Iterator
 from itertools import product
+from typing import Any
 
-from particles.integral.closed_faces import Ingredients
 from particles.integral.dih import NestedFluxes, Pairwise
 from particles.integral.edge_makers import MAKERS
-from particles.integral.exchange import PRINTED
 from particles.integral.rr98_moving_plain import MOTIONS
 from particles.integrators import TwoStep
 from particles.weights import WEIGHTS, WendlandC2
 from studies.build.setting import DISORDERS
-from studies.conservation.drift import (
-    MODES,
-    OPEN,
-    PAIRWISE,
-    PLATES,
-    UNDER_GRAVITY,
-    LayerDrift,
-    MotionDrift,
-    MovingDrift,
-    Wall,
-)
+from studies.conservation.drift import MODES, OPEN, PAIRWISE, PLATES, UNDER_GRAVITY, LayerDrift, MotionDrift
 from studies.conservation.forces import VISCOUS, BesideSpam, EdgeTorque, MotionTorque
 from studies.conservation.motions import (
     ALONG,
@@ -39,7 +27,7 @@ from studies.conservation.motions import (
     Pattern,
     Signs,
 )
-from studies.conservation.slow_flows import VARIANTS, CylinderDrag, SlidingShear, TurningWave
+from studies.conservation.slow_flows import CylinderDrag, SlidingShear, TurningWave, frozen, surface
 from studies.conservation.sums import CUBE, EVERYTHING, LINE, SQUARE, DihDrift, Unsymmetric
 from studies.kit.case import Case
 
@@ -48,9 +36,6 @@ KINDS = ("lattice", "jittered-0.3", "random", "relaxed")
 IDEAL = MODES[-1]
 #: (edge maker, point set): one on a lattice, one off it
 TWO = (("renormalised", "lattice"), ("delaunay", "jittered-0.3"))
-#: variants of the scheme of moving points, each without one ingredient
-LESS = {"heating as printed": Ingredients(transport=PRINTED), "open faces": Ingredients(iterations=0),
-        "whole pressure": Ingredients(static=0.0), "mass not spread": Ingredients(spread=0.0)}
 KEEP = ("literal", "constant-mass")
 POWERS = ((0, 0), (1, -1), (2, -2), (0, -1), (1, 0), (2, 0), (1, 1), (3, 0))
 REYNOLDS = (0.1, 10.0, 1000.0, float("inf"))
@@ -63,10 +48,9 @@ def pairs(kinds: tuple[str, ...]) -> list[tuple[str, str]]:
     return sorted({*product(MAKERS, kinds)} - {("closed", "lattice"), ("exact", "lattice")})
 
 
-def layer(maker: str, points: str, mode=PAIRWISE, wall: Wall = OPEN, **more) -> LayerDrift:
+def layer(maker: str, points: str, mode=PAIRWISE, wall=OPEN, **more) -> LayerDrift:
     """A long run of the compiled scheme on fixed points."""
-    return LayerDrift(mode=mode, maker=maker, make=MAKERS[maker], disorder=DISORDERS[points], wall=wall,
-                      **more)
+    return LayerDrift(mode=mode, maker=MAKERS[maker], points=DISORDERS[points], wall=wall, **more)
 
 
 def layers(kinds: tuple[str, ...], weights: tuple[type, ...], steps: int) -> Iterator[LayerDrift]:
@@ -105,21 +89,12 @@ def dimensions(steps: int, seeds: int) -> Iterator[Case]:
 
 def motions(steps: int, weights: tuple[type, ...]) -> Iterator[Case]:
     """Every motion on jittered points with RK4; the printed motions on a lattice with Eqs 40, 41."""
-    for name, kind in MOTIONS.items():
-        claimed = EVERYTHING if name in KEEP else "nothing"
-        yield MotionDrift(motion=name, kind=kind, steps=steps, claimed=claimed)
-    two = MotionDrift(motion="literal", kind=MOTIONS["literal"], integrator=TwoStep, dt=0.05, steps=steps,
-                      disorder=DISORDERS["lattice"])
-    yield from (replace(two, weight=weight) for weight in weights)
-    yield replace(two, motion="convective", kind=MOTIONS["convective"], claimed="nothing")
-
-
-def moving() -> Iterator[MovingDrift]:
-    """Moving points with closed faces: every point set and wall, every weight, every left-out ingredient."""
-    for kind, wall in product(KINDS, (OPEN, PLATES)):
-        yield MovingDrift(disorder=DISORDERS[kind], wall=wall)
-    yield from (MovingDrift(weight=weight) for weight in WEIGHT_KINDS if weight is not WendlandC2)
-    yield from (MovingDrift(name=name, ingredients=ingredients) for name, ingredients in LESS.items())
+    for name in MOTIONS:
+        yield MotionDrift(motion=name, steps=steps, claimed=EVERYTHING if name in KEEP else "nothing")
+    lattice: Any = {"points": DISORDERS["lattice"], "integrator": TwoStep, "dt": 0.05, "steps": steps}
+    for weight in weights:
+        yield MotionDrift(motion="literal", weight=weight, **lattice)
+    yield MotionDrift(motion="convective", claimed="nothing", **lattice)
 
 
 def once() -> Iterator[Case]:
@@ -128,22 +103,22 @@ def once() -> Iterator[Case]:
     yield from (BracketForce(a=float(a), b=float(b)) for a, b in POWERS)
     yield from (BesideSpam(a=float(a), b=float(b)) for a, b in ((1, -1), (0, 0), (2, 0)))
     for (name, transport), reynolds in product((("nested", NestedFluxes()), ("pairwise", ALONG)), REYNOLDS):
-        yield Identity(name=name, transport=transport, reynolds=reynolds)
+        yield Identity(transport=name, law=transport, reynolds=reynolds)
 
 
 def speeds(wavelengths: tuple[int, ...]) -> Iterator[Case]:
     """Speeds of density patterns and of sound on moving points."""
-    for (name, kind), wavelength in product(MOTIONS.items(), wavelengths):
-        yield Pattern(motion=name, kind=kind, wavelength=wavelength)
-        yield MovingSound(motion=name, kind=kind, wavelength=wavelength)
+    for name, wavelength in product(MOTIONS, wavelengths):
+        yield Pattern(motion=name, wavelength=wavelength)
+        yield MovingSound(motion=name, wavelength=wavelength)
         if name != "carried" and len(wavelengths) > 1:
-            yield MovingSound(motion=name, kind=kind, wavelength=wavelength, weight=WendlandC2, h=4.0)
+            yield MovingSound(motion=name, wavelength=wavelength, weight=WendlandC2, h=4.0)
 
 
-def drags(fraction: float, sizes: dict[str, tuple[int, ...]]) -> Iterator[Case]:
-    """Drags of a cylinder; sizes: variant of the body -> numbers of rows."""
-    for name, rows in sizes.items():
-        yield from (CylinderDrag(variant=VARIANTS[name], fraction=fraction, rows=n) for n in rows)
+def drags(body: Callable, fraction: float, sizes: tuple[int, ...]) -> Iterator[Case]:
+    """Drags of a cylinder."""
+    for rows in sizes:
+        yield CylinderDrag(variant=body, fraction=fraction, rows=rows)
 
 
 def sliding(waves: tuple[int, ...]) -> Iterator[Case]:
@@ -156,29 +131,28 @@ def torques(seeds: int) -> Iterator[Case]:
     """Torques of exchanges over edges, of moving points, of smooth particles."""
     for (maker, points), seed in product(pairs(("lattice", "jittered-0.3")), range(1, seeds + 1)):
         if seed == 1 or points != "lattice":
-            yield EdgeTorque(make=MAKERS[maker], points=points, seed=seed)
-    for (name, kind), law in product((*MOTIONS.items(), ("spam", None)), (STILL, VISCOUS)):
-        yield MotionTorque(motion=name, kind=kind, law=law)
+            yield EdgeTorque(maker=MAKERS[maker], points=DISORDERS[points], seed=seed)
+    for name, law in product((*MOTIONS, "spam"), (STILL, VISCOUS)):
+        yield MotionTorque(motion=name, law=law)
 
 
 def quick() -> Iterator[Case]:
-    """Short runs with one weight on lattice and jittered points; small bodies; no closed faces."""
+    """Short runs with one weight on lattice and jittered points; small bodies."""
     some = KINDS[:2], WEIGHT_KINDS[:1]
     yield from (*layers(*some, steps=300), *plates(*some, steps=300))
     yield from (*dimensions(300, seeds=2), *motions(40, WEIGHT_KINDS[:1]), *once(), *speeds((8,)))
     yield from (*sliding((12, 16, 24)), *torques(1))
-    yield from drags(0.1, {"surface": (12, 16), "frozen": (12, 16)})
+    yield from (*drags(surface, 0.1, (12, 16)), *drags(frozen, 0.1, (12, 16)))
 
 
 def paper() -> Iterator[Case]:
     """All cases at full length."""
     yield from (*layers(KINDS, WEIGHT_KINDS, 10_000), *plates(KINDS, WEIGHT_KINDS, 10_000))
-    yield from (*dimensions(10_000, seeds=24), *motions(10_000, WEIGHT_KINDS), *once(), *moving())
+    yield from (*dimensions(10_000, seeds=24), *motions(10_000, WEIGHT_KINDS), *once())
     yield from speeds((8, 16, 24, 32))
     yield from (*sliding((16, 24, 32, 48, 64)), *torques(3))
     for fraction, every in ((0.1, 1), (0.3, 4)):
-        yield from drags(fraction, {"surface": SMOOTH, "frozen": SCATTERED[::every],
-                                    "frozen-grown": SCATTERED[::every]})
+        yield from (*drags(surface, fraction, SMOOTH), *drags(frozen, fraction, SCATTERED[::every]))
 
 
 def cases(size: str) -> list[Case]:

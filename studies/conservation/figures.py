@@ -6,8 +6,7 @@ from matplotlib.figure import Figure
 
 from studies.kit.figure import Drawing, Drawings, bars, figure, logarithmic, look, numbered
 
-BODIES = {"surface": "points on the surface", "frozen": "frozen lattice points",
-          "frozen-grown": "frozen, half a spacing more"}
+BODIES = {"surface": "points on the surface", "frozen": "frozen lattice points"}
 
 
 def drags(drag: pd.DataFrame) -> Figure:

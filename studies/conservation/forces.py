@@ -6,8 +6,7 @@ each edge if f points along the edge. The sum over all edges is zero for the mea
 the Laplacian of x is zero.
 """
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
-from pathlib import Path
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -16,15 +15,16 @@ from continuum.fluid import ConstEta, IdealGas
 from particles.integral.dih import Dih, NestedFluxes, carried, densities, take
 from particles.integral.edges import Edges
 from particles.integral.points import Points, jittered
-from particles.integral.rr98_moving_plain import ConstantMass, Powers
+from particles.integral.rr98_moving_plain import MOTIONS, ConstantMass, Powers
 from particles.run import Plan, run
 from particles.smooth.spam import Spam
 from particles.weights import Lucy
-from studies.build.setting import DISORDERS
+from studies.build.setting import Disorder
 from studies.build.spam import fluid as smooth_particles
 from studies.conservation.motions import ALONG, DT, STILL, acceleration, march, moving
 from studies.conservation.sums import SIZE, random_fields
-from studies.kit.case import Case, Outcome, Report
+from studies.kit.case import Case, Report
+from studies.kit.table import Row
 
 LUCY, VISCOUS = Lucy.of(h=3.0), ConstEta(0.1, 0.1)
 RADIUS, WIDE = 6.0, (40, 40)        # a disc with a free rim, and a box wider than the reach of its pairs
@@ -52,43 +52,38 @@ def exchanges(edges: Edges, fields: Any) -> Iterator[tuple[str, np.ndarray]]:
     yield "friction, Eq. 37", NestedFluxes().fluxes(dih, flow).momentum
 
 
-@dataclass(frozen=True, kw_only=True)
-class EdgeTorque(Case):
+class EdgeTorque(Case, table="torques", same="maker points seed"):
     """Torque of each exchange over edges, for random fields on fixed points in a periodic box."""
-    make: Callable[[Points, Any], Edges]
-    points: str
+    maker: Callable[[Points, Any], Edges]
+    points: Disorder
     seed: int = 1
 
-    def run(self, report: Report, folder: Path) -> Outcome:
-        kind = DISORDERS[self.points]
-        points = kind.make((16, 16), kind.size, self.seed)
-        edges, fields = self.make(points, LUCY), random_fields(points, SIZE, self.seed)
-        key = {"maker": self.make.__name__, "points": self.points, "seed": self.seed}
-        return Outcome({"torques": [key | {"exchange": name, "torque": relative(edges.apart, f)}
-                                    for name, f in exchanges(edges, fields)]})
+    def measure(self, report: Report) -> Iterator[Row]:
+        points = self.points.make((16, 16), self.points.size, self.seed)
+        edges, fields = self.maker(points, LUCY), random_fields(points, SIZE, self.seed)
+        for name, f in exchanges(edges, fields):
+            yield {"exchange": name, "torque": relative(edges.apart, f)}
 
 
-@dataclass(frozen=True, kw_only=True)
-class MotionTorque(Case):
-    """Torque of all forces on a disc of RR98's moving points, or of smooth particles (kind None), jittered.
+class MotionTorque(Case, table="motion_torques", same="motion"):
+    """Torque of all forces on a disc of jittered points, moved as MOTIONS say, or of smooth particles, spam.
 
     law : viscosity and conductivity; transport is nested.
     """
     motion: str
-    kind: Any
     law: ConstEta
 
-    def run(self, report: Report, folder: Path) -> Outcome:
+    def measure(self, report: Report) -> Iterator[Row]:
         points = jittered(WIDE, 0.3, 1)
         x = points.x[np.hypot(*points.x.T) < RADIUS]
         points = Points(x=x, box=points.box, V=np.ones(len(x)))
-        force = self.pushed(points) if self.kind else rates_of(*smooth(points, self.law))[2:4].T
-        return Outcome({"motion_torques": [
-            {"motion": self.motion, "viscosity": self.law.eta, "torque": relative(x, force)}]})
+        particles = self.motion == "spam"
+        force = rates_of(*smooth(points, self.law))[2:4].T if particles else self.pushed(points)
+        yield {"viscosity": self.law.eta, "torque": relative(x, force)}
 
     def pushed(self, points: Points) -> np.ndarray:
         """d(momentum)/dt of each point, (n, 2)."""
-        method = moving(self.kind, points, LUCY, self.law, transport=NestedFluxes())
+        method = moving(MOTIONS[self.motion], points, LUCY, self.law, transport=NestedFluxes())
         fields = densities(method.eos, *random_fields(points, SIZE, 1))
         state = np.concatenate([points.x.T, method.owned(points.V)*fields, points.V[None]])
         rates = np.empty_like(state)
@@ -111,8 +106,7 @@ def rates_of(method: Spam, state: np.ndarray) -> np.ndarray:
     return rates[:, np.argsort(ids)]
 
 
-@dataclass(frozen=True, kw_only=True)
-class BesideSpam(Case):
+class BesideSpam(Case, table="beside", same="a b"):
     """Eq. 50 beside smooth particles, from one state without friction: random fields, jittered points, m = 1.
 
     Volumes of Eq. 50 are 1/rho of the summed density at the start, and then follow the flow. With a = 1, b =
@@ -122,19 +116,17 @@ class BesideSpam(Case):
     b: float
     time: float = 5.0
 
-    def run(self, report: Report, folder: Path) -> Outcome:
+    def measure(self, report: Report) -> Iterator[Row]:
         points, steps = jittered((16, 16), 0.2, 1), round(self.time/DT)
         spam, start = smooth(points)
         V = spam.fields(start).V
         method = moving(ConstantMass, points, LUCY, scale=1.0, bracket=Powers(self.a, self.b))
         first = np.concatenate([points.x.T, V*densities(method.eos, 1/V, start[2:4].T, start[4]), V[None]])
-        pushed = acceleration(method, first), rates_of(spam, start)[2:4]
+        pushed, push = acceleration(method, first), rates_of(spam, start)[2:4]
         last, ended = march(method, first, DT, steps, np.copy)[-1], run(spam, start, Plan(dt=DT, steps=steps))
-        other = ended.state[:, np.argsort(ended.ids)]
-        velocities = method.velocity(last), other[2:4]
-        return Outcome({"beside": [{
-            "a": self.a, "b": self.b, "start": apart(*pushed), "end": apart(*velocities),
-            "volumes": apart(last[-1], spam.fields(other).V)}]})
+        other = ended.by_id()
+        yield {"start": apart(pushed, push), "end": apart(method.velocity(last), other[2:4]),
+               "volumes": apart(last[-1], spam.fields(other).V)}
 
 
 def apart(one: np.ndarray, other: np.ndarray) -> float:

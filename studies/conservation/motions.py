@@ -1,7 +1,5 @@
 """RR98's moving points: equations on given fields, speeds of waves, positions    [RR98 Eqs 39-50]"""
-from collections.abc import Callable
-from dataclasses import dataclass
-from pathlib import Path
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
@@ -14,17 +12,16 @@ from particles.integral.rr98_moving_plain import (
     MOTIONS,
     ConstantMass,
     Convective,
-    Motion,
     Powers,
     convected,
     scale_of,
 )
 from particles.integrators import RK4, Euler, TwoStep
-from particles.limits import lattice_sums
 from particles.threads import Threads
 from particles.weights import Lucy
-from studies.kit.case import Case, Outcome, Report
+from studies.kit.case import Case, Report
 from studies.kit.stats import Measured, with_errors
+from studies.kit.table import Row
 
 ALONG = Pairwise(mended=False)
 STILL, C = ConstEta(0.0, 0.0), np.sqrt(2.0)     # c^2 = gamma P/rho = 2 at rho = T = 1
@@ -47,15 +44,6 @@ def moving(kind: Any, points: Points, weight: Any, law: Any = STILL, **more: Any
     return kind(box=tuple(points.box), weight=weight, eos=IdealGas(), law=law, **settings)
 
 
-def seen(weight: Any, points: Points, k: float) -> tuple[float, float]:
-    """Lattice sums of a wave along x over their continuum values, with the scale of `renormalised`.
-
-    Wave number of discrete gradients over k; stiffness of a moved lattice, (1/k^2) sum_r w_xx (1 - cos kx).
-    """
-    sums, scale = lattice_sums(weight, 1.0, 1.0, np.array([[k, 0.0]])), scale_of(points, weight)
-    return float(scale*np.abs(sums.S[0, 0])/k), float(scale*sums.D[0, 0, 0]/k**2)
-
-
 # --- equations evaluated on given fields --------------------------------------------------------
 
 
@@ -67,64 +55,55 @@ def acceleration(method: Any, state: np.ndarray) -> np.ndarray:
     return (dp - method.velocity(state)*dm)/m
 
 
-@dataclass(frozen=True, kw_only=True)
-class Identity(Case):
+class Identity(Case, table="identity", same="transport reynolds"):
     """Accelerations by Eqs 46-48 against those by Eq. 49: random fields on 10 x 10 jittered points.
 
-    reynolds : U a/nu with U = 0.1; infinite without viscosity.
+    transport : its name, law : its terms. reynolds : U a/nu with U = 0.1; infinite without viscosity.
     """
-    name: str
-    transport: Any
+    transport: str
+    law: Any
     reynolds: float
 
-    def run(self, report: Report, folder: Path) -> Outcome:
+    def measure(self, report: Report) -> Iterator[Row]:
         points, rng, eta = jittered((10, 10), 0.2, 2), np.random.default_rng(0), 0.1/self.reynolds
         rho = rng.uniform(0.9, 1.1, points.n)
         v = rng.normal(0, 0.1, (points.n, 2))
         T = rng.uniform(0.9, 1.1, points.n)
 
-        def accelerated(kind: type[Motion]) -> np.ndarray:
-            method = moving(kind, points, Lucy.of(h=3.0), ConstEta(eta, eta), transport=self.transport)
+        def accelerated(kind: type) -> np.ndarray:
+            method = moving(kind, points, Lucy.of(h=3.0), ConstEta(eta, eta), transport=self.law)
             return acceleration(method, method.state(points.x, rho, v, T))
         exact, other = accelerated(ConstantMass), accelerated(Convective)
-        difference = float(np.abs(other - exact).max()/np.abs(exact).max())
-        return Outcome({"identity": [
-            {"transport": self.name, "reynolds": self.reynolds, "convective": difference}]})
+        yield {"convective": np.abs(other - exact).max()/np.abs(exact).max()}
 
 
-@dataclass(frozen=True, kw_only=True)
-class Signs(Case):
+class Signs(Case, table="signs"):
     """Term that Eqs 46-48 add to d/dt, over v.grad of smooth fields on a lattice, by least squares."""
 
-    def run(self, report: Report, folder: Path) -> Outcome:
+    def measure(self, report: Report) -> Iterator[Row]:
         points, k = strip(LENGTH), 2*np.pi/LENGTH
         edges = moving(Convective, points, Lucy.of(h=3.0)).fluid(points.x, points.V).edges
         v = np.tile([0.3, -0.1], (points.n, 1))
-        rows = []
         for equation, phase in ((46, 0.0), (47, 0.7), (48, 1.9)):
             along = k*points.x[:, 0] + phase
             exact = -0.3*k*np.sin(along)
             [added] = convected(edges, v, np.cos(along)[None])
-            factor = added@exact/(exact@exact)
-            rows.append({"equation": equation, "wavelength": LENGTH, "factor": factor})
-        return Outcome({"signs": rows})
+            yield {"equation": equation, "wavelength": LENGTH, "factor": added@exact/(exact@exact)}
 
 
-@dataclass(frozen=True, kw_only=True)
-class BracketForce(Case):
+class BracketForce(Case, table="brackets", same="a b"):
     """Acceleration by Eq. 50 with powers a and b, over -grad P/rho, in an isentropic wave (P = rho^2)."""
     a: float
     b: float
 
-    def run(self, report: Report, folder: Path) -> Outcome:
+    def measure(self, report: Report) -> Iterator[Row]:
         points, k = strip(LENGTH), 2*np.pi/LENGTH
         x = points.x[:, 0]
         wave = 1 + AMPLITUDE*np.cos(k*x)
         method = moving(ConstantMass, points, Lucy.of(h=3.0), bracket=Powers(self.a, self.b))
         along, _ = acceleration(method, method.state(points.x, wave, 0*points.x, wave))
         # -grad rho^2 = 2 k A sin kx
-        force = np.mean(along*np.sin(k*x))/(k*AMPLITUDE)
-        return Outcome({"brackets": [{"a": self.a, "b": self.b, "force": force}]})
+        yield {"force": np.mean(along*np.sin(k*x))/(k*AMPLITUDE)}
 
 
 # --- speeds -------------------------------------------------------------------------------------
@@ -159,38 +138,31 @@ def by_halves(series: np.ndarray, measure: Callable[[np.ndarray], float]) -> Mea
     return Measured(float(measure(series)), float(abs(one - other)))
 
 
-@dataclass(frozen=True, kw_only=True)
-class Pattern(Case):
+class Pattern(Case, table="patterns", same="motion h wavelength"):
     """Speed of a density wave at uniform pressure over that of the stream that carries it, no viscosity.
 
-    kind : class of `rr98_moving_plain.MOTIONS`, motion : its name. Error: difference of the run's halves.
+    motion : a name in MOTIONS. Error: difference of the run's halves.
     """
     motion: str
-    kind: type[Motion]
     wavelength: int
     time: float = 10.0
+    h = 3.0
 
-    def run(self, report: Report, folder: Path) -> Outcome:
+    def measure(self, report: Report) -> Iterator[Row]:
         points, k = strip(self.wavelength), 2*np.pi/self.wavelength
-        weight = Lucy.of(h=3.0)
-        method = moving(self.kind, points, weight)
+        method = moving(MOTIONS[self.motion], points, Lucy.of(h=self.h))
         rho = 1 + AMPLITUDE*np.cos(k*points.x[:, 0])
         v = np.tile([STREAM, 0.0], (points.n, 1))
         first = method.state(points.x, rho, v, 1/rho)
         waves = march(method, first, DT, round(self.time/DT), lambda state: amplitude(state[2], state[0], k))
         phases = np.unwrap(np.angle(waves))
         speed = by_halves(-phases/(k*STREAM*DT), lambda part: np.polyfit(np.arange(len(part)), part, 1)[0])
-        twice, _ = seen(weight, points, k) if self.motion == "literal" else (0.0, 0.0)
-        return Outcome({"patterns": [
-            {"motion": self.motion, "h": 3.0, "wavelength": self.wavelength, "predicted": 1 + twice,
-             **with_errors(speed=speed)}]})
+        yield with_errors(speed=speed)
 
 
-@dataclass(frozen=True, kw_only=True)
-class MovingSound(Case):
+class MovingSound(Case, table="moving_sound", same="motion weight h wavelength"):
     """Speed of a standing sound wave over c, from two periods without viscosity. weight : class."""
     motion: str
-    kind: type[Motion]
     wavelength: int
     weight: Any = Lucy
     h: float = 3.0
@@ -199,22 +171,14 @@ class MovingSound(Case):
     def cost(self) -> float:
         return 1e-5*self.wavelength**2*self.h**2
 
-    def run(self, report: Report, folder: Path) -> Outcome:
+    def measure(self, report: Report) -> Iterator[Row]:
         points, k = strip(self.wavelength, 2*int(self.h) + 2), 2*np.pi/self.wavelength
-        weight, one = self.weight.of(h=self.h), np.ones(points.n)
-        method = moving(self.kind, points, weight)
+        method, one = moving(MOTIONS[self.motion], points, self.weight.of(h=self.h)), np.ones(points.n)
         wave = np.sin(k*points.x[:, 0])
         v = AMPLITUDE*np.stack([wave, 0*wave], axis=1)
         steps = round(2*self.wavelength/C/DT)
         waves = march(method, method.state(points.x, one, v, one), DT, steps, lambda state: state[3]@wave)
-        speed = by_halves(waves, lambda part: frequency(part, DT)/(k*C))
-        slope, stiffness = seen(weight, points, k)
-        # constant volumes do not give way to the pressure
-        more = slope**2 if self.motion in ("literal", "convective") else 0.0
-        return Outcome({"moving_sound": [
-            {"motion": self.motion, "weight": self.weight.__name__, "h": self.h,
-             "wavelength": self.wavelength, "predicted": float(np.sqrt(stiffness + more)),
-             **with_errors(speed=speed)}]})
+        yield with_errors(speed=by_halves(waves, lambda part: frequency(part, DT)/(k*C)))
 
 
 # --- positions ----------------------------------------------------------------------------------
@@ -233,8 +197,7 @@ def vortex_flow(x: np.ndarray, box: np.ndarray) -> tuple[np.ndarray, ...]:
     return np.ones(len(x)), v, 1 + u*u/4*(np.cos(2*X) + np.cos(2*Y))
 
 
-@dataclass(frozen=True, kw_only=True)
-class Places(Case):
+class Places(Case, table="accuracy", same="motion flow"):
     """Rms error of positions with new velocities [Eq. 41] over that with old ones [Eq. 40], against RK4.
 
     All take as many steps; the error of RK4 is its difference from RK4 in half as many. start : function of
@@ -248,12 +211,11 @@ class Places(Case):
     time: float
     steps: int
 
-    def run(self, report: Report, folder: Path) -> Outcome:
+    def measure(self, report: Report) -> Iterator[Row]:
         exact, coarse = self.places(RK4, self.steps), self.places(RK4, self.steps//2)
         new, old = (norm(self.places(integrator, self.steps) - exact) for integrator in (TwoStep, Euler))
-        ratio, err = new/old, norm(exact - coarse)
-        return Outcome({"accuracy": [{"motion": self.motion, "flow": self.flow, "ratio": ratio,
-                                      "ratio_err": ratio*(err/new + err/old)}]})
+        err = norm(exact - coarse)
+        yield {"ratio": new/old, "ratio_err": new/old*(err/new + err/old)}
 
     def places(self, integrator: Any, steps: int) -> np.ndarray:
         """Positions (n, 2) at the end."""

@@ -1,8 +1,5 @@
 """Slow flows around held points and between sliding sides: drag, shear    [RR98 Secs III, IV]"""
-from collections.abc import Callable
-from dataclasses import dataclass
-from pathlib import Path
-from typing import NamedTuple
+from collections.abc import Callable, Iterator
 
 import numpy as np
 
@@ -19,8 +16,9 @@ from particles.limits import limit_of
 from particles.run import Plan, Run, run
 from particles.threads import Threads
 from particles.weights import Lucy
-from studies.kit.case import Case, Outcome, Report
+from studies.kit.case import Case, Report
 from studies.kit.stats import Measured, with_errors
+from studies.kit.table import Row
 
 ETA, SPEED = 2.0, 1e-3      # sound and friction limit the step about equally; Re and Mach below 0.01
 PRESSURE = 0.05             # chi nu/(a^2 c^2) of the density filter
@@ -40,15 +38,7 @@ def spent(done: Run) -> dict[str, float]:
 
 def in_disc(points: Points, radius: float) -> np.ndarray:
     """Indices of the points in a disc about the middle of the box, its circumference included."""
-    check_disc(points, radius)
     return np.flatnonzero(np.hypot(*points.x.T) <= radius*(1 + 1e-12))
-
-
-def check_disc(points: Points, radius: float) -> None:
-    """Raise ValueError if a disc is smaller than a spacing or within two spacings of its own image."""
-    if not points.a <= radius <= points.box.min()/2 - points.a:
-        raise ValueError(f"a disc of radius {radius:g} in a box {points.box} must be at least a spacing, "
-                         f"{points.a:.3g}, and as far from its image beyond the side; take more points")
 
 
 def with_surface(counts: tuple[int, int], radius: float) -> tuple[Points, np.ndarray]:
@@ -57,21 +47,11 @@ def with_surface(counts: tuple[int, int], radius: float) -> tuple[Points, np.nda
     Lattice points nearer to the circle than CLEAR are left out, so that chords between neighbours on it are
     Delaunay edges. The polygon of n points lacks a fraction (2 pi/n)^2/6 of the area of the disc.
     """
-    at = lattice(counts)
-    check_disc(at, radius)
+    at, circle = lattice(counts), on_circle(radius)
     r = np.hypot(*at.x.T)
-    circle = on_circle(radius)
     inside, outside = at.x[r < radius - CLEAR], at.x[r > radius + CLEAR]
     points = of_positions(np.concatenate([circle, inside, outside]), at.box)
     return points, np.arange(len(circle) + len(inside))
-
-
-class Obstacle(NamedTuple):
-    """A way to make a body of a radius in rows^2 points. grown : added to the radius of a frozen disc."""
-    name: str
-    make: Callable[[int, float], Cell]
-    grown: float = 0.0
-    filtered: float = PRESSURE
 
 
 def frozen(rows: int, radius: float) -> Cell:
@@ -80,16 +60,10 @@ def frozen(rows: int, radius: float) -> Cell:
     return points, in_disc(points, radius), renormalised(points, Lucy.of(h=2.0))
 
 
-def triangulated(rows: int, radius: float) -> Cell:
+def surface(rows: int, radius: float) -> Cell:
     """Points on the circle, in a lattice; edges of a Delaunay triangulation."""
     points, body = with_surface((rows, rows), radius)
     return points, body, delaunay(points)
-
-
-VARIANTS = {variant.name: variant for variant in (
-    Obstacle("surface", triangulated),
-    Obstacle("frozen", frozen),
-    Obstacle("frozen-grown", frozen, grown=0.5))}
 
 
 def drag(sums: Streaming, state: np.ndarray) -> float:
@@ -100,13 +74,13 @@ def drag(sums: Streaming, state: np.ndarray) -> float:
     return float(force/(ETA*(V@state[1])/V.sum()))
 
 
-@dataclass(frozen=True, kw_only=True)
-class CylinderDrag(Case):
+class CylinderDrag(Case, table="drag", same="variant fraction rows"):
     """Steady slow stream through a square array of cylinders, `rows` spacings from one to the next.
 
-    The push is that of the published drag at the mean velocity SPEED. fraction : of solid.
+    variant : how the body is made. fraction : of solid. The push is that of the published drag at the mean
+    velocity SPEED.
     """
-    variant: Obstacle
+    variant: Callable[[int, float], Cell]
     fraction: float
     rows: int
 
@@ -119,9 +93,9 @@ class CylinderDrag(Case):
         """Slowest decay rate in nu/L^2: of the mean velocity, or of sound damped by friction."""
         return min(published(f"cylinders-drag-{self.fraction:g}").value, 4*np.pi**2)
 
-    def run(self, report: Report, folder: Path) -> Outcome:
+    def measure(self, report: Report) -> Iterator[Row]:
         radius = self.rows*float(np.sqrt(self.fraction/np.pi))
-        method = self.method(radius + self.variant.grown)
+        method = self.method(radius)
         first = method.state(1.0, np.full(method.x.shape, [SPEED, 0.0]), 1.0)
         dt = OF_LIMIT*limit_of(method, first)
         steps = round(TIMES*self.rows**2/(self.slowest*ETA)/dt)
@@ -131,17 +105,15 @@ class CylinderDrag(Case):
         measured = Measured(last[-1], float(np.ptp(last)))
         known = published(f"cylinders-drag-{self.fraction:g}")
         printed = Measured(known.value, known.uncertainty)
-        return Outcome({"drag": [{
-            "variant": self.variant.name, "fraction": self.fraction, "rows": self.rows, "dt": dt,
-            "radius": radius, "reynolds": 2*SPEED*radius/ETA, "mach": SPEED/SOUND, **spent(done),
-            **with_errors(drag=measured, published=printed, error=measured/printed - 1)}]})
+        yield {"dt": dt, "radius": radius, "reynolds": 2*SPEED*radius/ETA, "mach": SPEED/SOUND, **spent(done),
+               **with_errors(drag=measured, published=printed, error=measured/printed - 1)}
 
     def method(self, radius: float) -> Stream:
         """The gas on the points of the variant."""
-        points, body, edges = self.variant.make(self.rows, radius)
+        points, body, edges = self.variant(self.rows, radius)
         push = published(f"cylinders-drag-{self.fraction:g}").value*ETA*SPEED/self.rows**2
         return Stream(x=points.x, edges=edges, eos=IdealGas(), law=ConstEta(ETA, ETA),
-                      held=held(body, T=1.0), push=(push, 0.0), chi=self.variant.filtered/ETA)
+                      held=held(body, T=1.0), push=(push, 0.0), chi=PRESSURE/ETA)
 
 
 # --- sliding sides ------------------------------------------------------------------------------
@@ -164,13 +136,12 @@ def slid(method: Sheared, first: np.ndarray, report: Report) -> tuple[Run, float
     return done, done.step*dt
 
 
-@dataclass(frozen=True, kw_only=True)
-class SlidingShear(Case):
+class SlidingShear(Case, table="shear", same="rows"):
     """Homogeneous shear between sliding sides, started from the exact profile, with frictional heating."""
     rows: int
     eta: float = 0.3
 
-    def run(self, report: Report, folder: Path) -> Outcome:
+    def measure(self, report: Report) -> Iterator[Row]:
         method = sliding(self.rows, self.eta)
         rate, V = method.rate, method.edges.V
         exact = method.points.x[:, ::-1]*(rate, 0)
@@ -180,15 +151,12 @@ class SlidingShear(Case):
         stress = method.start(len(V), Threads(1)).through(last)[1]/self.rows
         mass, px, py, energy, _ = (last@V - first@V)/V.sum()
         change = np.abs(method.fields(last).v - exact).max()
-        return Outcome({"shear": [{
-            "rows": self.rows, "stress": abs(stress/(self.eta*rate) - 1),
-            "heating": abs(energy/time/(self.eta*rate**2) - 1), "profile": float(change/DIFFERENCE),
-            "mass_drift": abs(mass), "momentum_drift": float(max(abs(px), abs(py))/DIFFERENCE),
-            **spent(done)}]})
+        yield {"stress": abs(stress/(self.eta*rate) - 1), "heating": abs(energy/time/(self.eta*rate**2) - 1),
+               "profile": change/DIFFERENCE, "mass_drift": abs(mass),
+               "momentum_drift": max(abs(px), abs(py))/DIFFERENCE, **spent(done)}
 
 
-@dataclass(frozen=True, kw_only=True)
-class TurningWave(Case):
+class TurningWave(Case, table="wave", same="rows"):
     """A plane wave that the shear turns from k = (1, 1) 2 pi/L to (1, -1) 2 pi/L, against its exact solution.
 
     At low Mach number vorticity decays as exp(-nu int k^2 dt) and k_y = k_x (1 - rate t)    [Kelvin 1887]
@@ -197,7 +165,7 @@ class TurningWave(Case):
     eta: float = 0.02/32        # per row: the same Reynolds number at all sizes
     size: float = 1e-3          # of the wave: its square is negligible
 
-    def run(self, report: Report, folder: Path) -> Outcome:
+    def measure(self, report: Report) -> Iterator[Row]:
         method = sliding(self.rows, self.eta*self.rows)
         v, p = self.wave(method, 0.0)
         first = method.state(1 + p/2, v, 1 + p/2)          # isentropic: gamma = 2, P = 1
@@ -206,7 +174,7 @@ class TurningWave(Case):
         of_wave = exact - method.points.x[:, ::-1]*(method.rate, 0)
         scale = float(np.sqrt((of_wave**2).sum(axis=1).mean()))
         error = without_divergence(method.fields(done.state).v - exact, self.rows)
-        return Outcome({"wave": [{"rows": self.rows, "error": error/scale, **spent(done)}]})
+        yield {"error": error/scale, **spent(done)}
 
     def wave(self, method: Sheared, t: float) -> tuple[np.ndarray, np.ndarray]:
         """(velocity (n, 2) with the shear, pressure (n,)) at a time: grad^2 p = -2 rho rate dv/dx."""

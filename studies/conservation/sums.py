@@ -1,8 +1,7 @@
 """Long runs from random starts, with the sums that should be conserved; runs in numpy in 1D to 3D."""
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from math import fsum
-from pathlib import Path
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
@@ -13,13 +12,11 @@ from particles.integral.dih import Dih, Pairwise
 from particles.integral.edge_makers import exact
 from particles.integral.points import Points
 from particles.integrators import RK4
-from particles.limits import limit_of
-from particles.run import Divergence, Plan, run
-from particles.starts import Overlap
 from particles.threads import Threads
 from particles.weights import Lucy
 from studies.build.setting import DISORDERS
-from studies.kit.case import Case, Outcome, Report
+from studies.kit.case import Case, Report
+from studies.kit.table import Row
 
 ROUND_OFF = 2.2e-16     # of a sum: its terms are rounded twice, adding them up is exact
 HARMONICS = 2           # highest wave number of random fields, in waves per box
@@ -71,31 +68,24 @@ def sizes(eos: Any, fields: Fields) -> np.ndarray:
     return np.array([m.sum(), *[momentum]*fields.v.shape[1], total])
 
 
-@dataclass(frozen=True, kw_only=True)
-class WatchedRun(Case):
-    """A long run from a random start: a row of the table `drift`. scheme : column of that name."""
+class WatchedRun(Case, same="scheme mode maker weight h points wall zeta seed steps claimed"):
+    """A long run from a random start. A kind of run gives its columns, among them `claimed`: the sums that it
+    claims to keep."""
     steps: int = 10_000
     seed: int = 1
-    scheme: ClassVar[str]
+    zeta = 0.0
 
     def watched(self, advance: Advance, state: np.ndarray, totals: Callable[[np.ndarray], np.ndarray],
-                sizes: np.ndarray, report: Report, *, records: int = RECORDS, **columns: Any) -> Outcome:
-        """Run, and record the largest changes of mass, momentum, energy, and volume if `totals` has it.
-
-        sizes : scales that changes are divided by. columns : which run it is, and the sums it claims to keep.
-        """
+                sizes: np.ndarray, report: Report, records: int = RECORDS) -> Iterator[Row]:
+        """Run; the row has the largest changes of mass, momentum, energy over their sizes."""
         first, worst = totals(state), np.zeros(len(sizes))
 
         def look(now: np.ndarray) -> None:
             np.maximum(worst, np.abs(totals(now) - first)/sizes, out=worst)
         reached = in_parts(advance, state, self.steps, look, report, records)
-        d = columns.get("d", 2)
-        mass, *momentum, total = worst[:d + 2]
-        volume = worst[-1] if len(worst) > d + 2 else np.nan
-        return Outcome({"drift": [{
-            "scheme": self.scheme, "d": d, "wall": "periodic", "zeta": 0.0, "seed": self.seed,
-            "steps": self.steps, "reached": reached, "mass": mass, "momentum": max(momentum),
-            "energy": total, "volume": volume, "err": ROUND_OFF, **columns}]})
+        mass, *momentum, total = worst
+        yield {"n": state.shape[1], "reached": reached, "mass": mass, "momentum": max(momentum),
+                "energy": total, "d": len(momentum), "err": ROUND_OFF}
 
 
 def in_parts(advance: Advance, state: np.ndarray, steps: int, look: Callable[[np.ndarray], None],
@@ -112,22 +102,6 @@ def in_parts(advance: Advance, state: np.ndarray, steps: int, look: Callable[[np
             before += number
             report(before/steps)
     return steps
-
-
-def compiled(method: Any, first: np.ndarray) -> Advance:
-    """Compiled steps, until the run diverges, points overlap, or sound in heated gas outruns the step."""
-    dt = OF_LIMIT*limit_of(method, first)
-
-    def advance(state: np.ndarray, steps: int) -> tuple[np.ndarray, int]:
-        if dt > limit_of(method, state):
-            return state, 0
-        try:
-            return run(method, state, Plan(dt=dt, steps=steps)).state, steps
-        except Divergence as end:
-            return state, end.step
-        except Overlap:
-            return state, 0
-    return advance
 
 
 def in_numpy(method: Any, first: np.ndarray, dt: float, integrator: Any = RK4) -> Advance:
@@ -159,34 +133,35 @@ CUBE = SmallBox((4, 4, 4), 1.9, 1.5e-3)
 SHIFTED = DISORDERS["jittered-0.1"]
 
 
-@dataclass(frozen=True, kw_only=True)
-class DihDrift(WatchedRun):
+class DihDrift(WatchedRun, table="drift"):
     """Long run on jittered points with exact edges. transport : of `dih`, mode : its name."""
     mode: str
     transport: Any
     box: SmallBox
-    scheme = "dih"
+    scheme, maker, weight, points, wall = "dih", "exact", Lucy, SHIFTED, "periodic"
+    zeta, claimed = ZETA, EVERYTHING
     kind: ClassVar[type[Dih]] = Dih
 
     @property
     def cost(self) -> float:
         return self.steps*self.box.cost
 
+    @property
+    def h(self) -> float:
+        return self.box.h
+
     def begun(self) -> tuple[Dih, np.ndarray, Advance]:
         """The fluid, its random start, and the function that advances it with RK4."""
         points = SHIFTED.make(self.box.counts, SHIFTED.size, self.seed)
-        fluid = self.kind(edges=exact(points, Lucy.of(h=self.box.h, d=points.d)), eos=IdealGas(),
+        fluid = self.kind(edges=exact(points, Lucy.of(h=self.h, d=points.d)), eos=IdealGas(),
                           law=ConstEta(ETA, ETA), zeta=ZETA, transport=self.transport)
         state = fluid.state(*random_fields(points, SIZE, self.seed))
         return fluid, state, in_numpy(fluid, state, OF_LIMIT*step_limit(fluid, state))
 
-    def run(self, report: Report, folder: Path) -> Outcome:
+    def measure(self, report: Report) -> Iterator[Row]:
         fluid, state, advance = self.begun()
-        V = fluid.edges.V
-        return self.watched(
-            advance, state, lambda now: exact_sums(V, now), sizes(fluid.eos, fluid.fields(state)), report,
-            mode=self.mode, d=len(self.box.counts), maker="exact", weight="Lucy", h=self.box.h, n=len(V),
-            points=SHIFTED.name, zeta=ZETA, claimed=EVERYTHING)
+        return self.watched(advance, state, lambda now: exact_sums(fluid.edges.V, now),
+                            sizes(fluid.eos, fluid.fields(state)), report)
 
 
 def step_limit(fluid: Dih, state: np.ndarray) -> float:
@@ -214,15 +189,14 @@ class OneSided(Dih):
             row -= (np.bincount(i, flux, edges.n) + np.bincount(j, flux, edges.n))/edges.V
 
 
-@dataclass(frozen=True, kw_only=True)
-class Unsymmetric(DihDrift):
+class Unsymmetric(DihDrift, table="losses", same="maker points seed steps"):
     """Momentum that an unsymmetric pressure loses on a line, up to the last record before a run diverges."""
     mode: str = "one-sided"
-    transport: Any = Pairwise()  # noqa: RUF009 (immutable)
+    transport: Any = Pairwise()
     box: SmallBox = LINE
     kind = OneSided
 
-    def run(self, report: Report, folder: Path) -> Outcome:
+    def measure(self, report: Report) -> Iterator[Row]:
         fluid, state, advance = self.begun()
         _, size, _ = sizes(fluid.eos, fluid.fields(state))
         momenta = [fsum(fluid.edges.V*state[1])]
@@ -230,6 +204,4 @@ class Unsymmetric(DihDrift):
         in_parts(advance, state, self.steps, lambda now: momenta.append(fsum(fluid.edges.V*now[1])), report,
                  looks)
         reached = self.steps*(len(momenta) - 1)//looks
-        return Outcome({"losses": [{
-            "maker": "exact", "points": SHIFTED.name, "seed": self.seed, "steps": self.steps,
-            "reached": reached, "lost": abs(momenta[-1] - momenta[0])/size}]})
+        yield {"reached": reached, "lost": abs(momenta[-1] - momenta[0])/size}

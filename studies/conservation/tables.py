@@ -22,7 +22,7 @@ RINGS = {"rows": ("points along the side of the box", "")}
 
 ALL = (
     Table.of("drift", "scheme mode d maker weight h points wall zeta seed",
-             "n steps reached claimed mass momentum energy volume err",
+             "n steps reached claimed mass momentum energy err",
              about="A long run of a scheme: the largest change of each sum until its end.",
              means={"reached": ("steps until it diverged or heated so much that sound outran its step, or "
                                 "all", ""),
@@ -31,11 +31,11 @@ ALL = (
              about="A long run without the second kernel of Eq. 14.",
              means={"reached": ("steps when it was looked at last", ""),
                     "lost": ("change of momentum over the sum of its sizes", "")}),
-    Table.of("patterns", "motion h wavelength", "speed speed_err predicted",
+    Table.of("patterns", "motion h wavelength", "speed speed_err",
              about="A density pattern on a stream.",
              means={"speed": ("speed of the pattern over that of the stream", "")}),
-    Table.of("moving_sound", "motion weight h wavelength", "speed speed_err predicted", means=SOUND,
-             about="A sound wave on moving points; predicted from sums over the lattice and one moved."),
+    Table.of("moving_sound", "motion weight h wavelength", "speed speed_err", means=SOUND,
+             about="A sound wave on moving points."),
     Table.of("long_sound", "motion weight", "speed speed_err", means=SOUND,
              about="The same of endless waves, extrapolated."),
     Table.of("accuracy", "motion flow", "ratio ratio_err", about="Positions at the end of a run.",
@@ -61,8 +61,7 @@ ALL = (
               "is what still changed."),
     Table.of("drag_limits", "variant fraction", "sizes limit limit_err error error_err",
              means=SIZE | {"limit": ("drag over viscosity and speed", "")},
-             about="The same of infinitely fine points, by a line in rows^-2 (points on the surface) or "
-                   "1/rows (staircases)."),
+             about="The same of infinitely fine points on the surface, by a line in rows^-2."),
     Table.of("shear", "rows", "stress heating profile mass_drift momentum_drift steps", means=RINGS,
              about="Homogeneous shear between sliding sides."),
     Table.of("wave", "rows", "error steps", about="A wave that the shear turns.",
@@ -106,13 +105,13 @@ def extrapolated(speeds: pd.Series, a: int, b: int) -> float:
 
 
 def drag_limits(drags: pd.DataFrame) -> DERIVED:
-    """Drags extrapolated to infinitely fine points."""
-    for (variant, fraction), group in drags[drags["radius"] > WIDE].groupby(["variant", "fraction"]):
+    """Drags of points on the surface extrapolated to infinitely fine ones; their errors have second order."""
+    known = drags[(drags["variant"] == "surface") & (drags["radius"] > WIDE)]
+    for (variant, fraction), group in known.groupby(["variant", "fraction"]):
         if len(group) >= LEAST:
             rows = group["rows"].to_numpy(float)
-            spacing = rows**-2 if variant == "surface" else 1/rows      # second order; staircases: first
             unsteady = Measured(0.0, group["drag_err"].max())
-            limit = fits.line(spacing, group["drag"].to_numpy()).intercept + unsteady
+            limit = fits.line(rows**-2, group["drag"].to_numpy()).intercept + unsteady
             published = Measured(*group[["published", "published_err"]].iloc[0])
             yield {"variant": variant, "fraction": fraction, "sizes": len(group),
                    **with_errors(limit=limit, error=limit/published - 1)}

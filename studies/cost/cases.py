@@ -21,9 +21,9 @@ from studies.build.spam import OF_LIMIT
 from studies.cost import contestants as of
 from studies.cost import rolls
 from studies.cost.contestants import ExactFlow
-from studies.cost.race import Entry, Race
+from studies.cost.race import Race
 from studies.cost.rolls import LOWER_RA, HeatedLayer
-from studies.cost.seconds import Flock, Resident, StepTime, TwoThreads, Web
+from studies.cost.seconds import Resident, StepTime, TwoThreads
 from studies.cost.solvers import SolverRace, SpectralRace, by_pypde, solved
 from studies.cost.tables import CARRIED, SPECTRAL
 from studies.kit.case import Case
@@ -43,7 +43,7 @@ def rungs(least: int, most: int) -> tuple[int, ...]:
 
 
 class Team(NamedTuple):
-    """Methods set up in a flow in the same way, and their resolutions. Other fields are those of `Entry`."""
+    """Methods set up in a flow in the same way, and their resolutions. Other fields are those of `Race`."""
     methods: Mapping[str, Any]
     make: Callable
     price: float
@@ -52,19 +52,11 @@ class Team(NamedTuple):
     first: float = 0.9
     kind: type[Race] = Race
 
-    def entry(self, name: str, flow: Any) -> Entry:
-        """A method by its name."""
-        return Entry(name, flow, self.methods[name], self.make, self.price, self.first)
-
 
 class Contest(NamedTuple):
     """A flow and all methods that take part in it."""
     flow: Any
     teams: tuple[Team, ...]
-
-    def entry(self, name: str) -> Entry:
-        """A method by its name."""
-        return next(team for team in self.teams if name in team.methods).entry(name, self.flow)
 
     def cases(self, scene: str, names: Collection[str] = (), resolutions: Collection[int] = (),
               **more: Any) -> Iterator[Race]:
@@ -72,8 +64,9 @@ class Contest(NamedTuple):
         for team in self.teams:
             chosen = [name for name in team.methods if name in (names or team.methods)]
             for name, rows, seed in product(chosen, resolutions or team.resolutions, team.seeds):
-                yield team.kind(scene=scene, entry=team.entry(name, self.flow), resolution=rows, seed=seed,
-                                **more)
+                yield team.kind(scene=scene, method=name, resolution=rows, seed=seed, flow=self.flow,
+                                variant=team.methods[name], make=team.make, price=team.price,
+                                first=team.first, **more)
 
 
 LATTICES = variants("fixed-lattice-h1.2", "fixed-lattice", "fixed-lattice-h3")
@@ -81,8 +74,8 @@ TRIANGLES = variants(CARRIED)
 PARTICLES = variants("spam", "spam-monaghan", "spam-wendland-c2")
 #: points that stay, as disordered as moving points at the start
 SHAKEN = {"fixed-jittered-0.2-plates": variant("fixed-jittered-plates")._replace(size=START_JITTER)}
-#: methods whose growth of seconds and whose memory are measured
-MOVERS, STAYERS = variants("spam", CARRIED), variants("fixed-lattice")
+#: methods whose growth of seconds is measured
+MOVERS = variants("spam", CARRIED)
 FAR_OFF = 16, *rungs(32, 96)        # resolutions of particles whose error is alike at all of them
 
 
@@ -162,23 +155,19 @@ def paper() -> Iterator[Case]:
         yield from contest.cases(scene)
     yield from growth(ROWS)
     for (name, chosen), rows in product(MOVERS.items(), (100, 224)):
-        yield TwoThreads(name=name, variant=chosen, rows=rows)
-    for name, chosen in (TRIANGLES | STAYERS).items():
-        yield Resident(name=name, variant=chosen, rows=ROWS[-1], a_point=3e-5)
+        yield TwoThreads(method=name, variant=chosen, rows=rows)
+    yield Resident(method=CARRIED, variant=TRIANGLES[CARRIED], rows=ROWS[-1])
 
 
 def quick() -> Iterator[Case]:
     """A few methods on small scenes, against coarse references."""
     for scene, (flow, names, resolutions) in QUICK.items():
         yield from CONTESTS[scene]._replace(flow=flow).cases(scene, names, resolutions, short=FAST)
-    yield from growth((16, 22, 32), short=FAST)
-    yield Resident(name=CARRIED, variant=TRIANGLES[CARRIED], rows=16)
+    yield from growth((16, 22, 32))
+    yield Resident(method=CARRIED, variant=TRIANGLES[CARRIED], rows=16)
 
 
-def growth(sizes: tuple[int, ...], **more: Any) -> Iterator[StepTime]:
+def growth(sizes: tuple[int, ...]) -> Iterator[StepTime]:
     """Seconds of a step of so many rows of points."""
-    for rows in sizes:
-        for name, chosen in MOVERS.items():
-            yield StepTime(name=name, variant=chosen, kind=Flock, rows=rows, **more)
-        for name, chosen in STAYERS.items():
-            yield StepTime(name=name, variant=chosen, kind=Web, rows=rows, a_point=2.5e-5, **more)
+    for rows, (name, chosen) in product(sizes, MOVERS.items()):
+        yield StepTime(method=name, variant=chosen, rows=rows)

@@ -23,8 +23,6 @@ FIXED = (NEAREST, LATTICE, WIDE, JITTERED)
 K = {"scene": "convection", "quantity": "K"}
 LOWER_K = {"scene": "convection-5000", "quantity": "K"}
 VORTEX = {"scene": "taylor-green", "quantity": "velocity"}
-SOUND = {"scene": "sound", "quantity": "velocity"}
-LOWER = {"scene": "convection-5000", "quantity": "velocity"}
 FLOW = {"scene": "convection", "quantity": "velocity"}
 STAGGERED = first("needed", "cpu_s", 'reached == "yes"', by="cpu_s", err="high - cpu_s", level=0.01,
                   method=(MAC, PYPDE), **VORTEX)
@@ -52,19 +50,9 @@ COST = {"by": "cpu_s", "err": "high - cpu_s", "level": 0.01}
 CHEAPEST = first("needed", "cpu_s", REACHED, method=FIXED, **COST, **K)
 
 
-def no_dearer(name: str, where: dict[str, str], words: str, after: str = "") -> Claim:
-    """Of points with edges to nearest neighbours, in another flow than that which was asked about first."""
-    return Claim(id=f"own-speed-fixed-points-{name}", source="RR98 Sec. III", at_most=2,
-                 value=seconds(NEAREST, where)/seconds(GRID, where),
-                 because="the factor asked for in convection at Ra 10 000", after=after,
-                 statement=f"fixed points are no dearer than a grid {words}: CPU seconds of {NEAREST} for "
-                           f"1 % in {where['quantity']} over those of {GRID}")
-
-
 #: of convection by LAMMPS and ours, in one run
 TIMED: dict[str, Any] = {"scene": "time", "quantity": "seconds", "err": "err"}
 OUTSIDE: dict[str, Any] = {"source": "KHP95 Sec. VII"}
-TIMES = "the grid's times had been seen"
 ASKED = "asked for before it had been raced"
 POINTS = "points that move with their triangulation"
 
@@ -113,10 +101,6 @@ CLAIMS = (
           statement="fixed points are no dearer than a grid: CPU seconds, setting up included, to the "
                     "steady state of Rayleigh-Benard at Ra 10 000 with 1 % in K, the cheapest fixed "
                     "points' over the compressible grid's"),
-    no_dearer("5000", LOWER_K, "at Ra 5000, where their errors of K happen to cancel"),
-    no_dearer("5000-velocity", LOWER, "at Ra 5000", after="errors of K had been seen to cancel"),
-    no_dearer("vortex", VORTEX, "in a Taylor-Green vortex", after=TIMES),
-    no_dearer("sound", SOUND, "in a sound wave", after=TIMES),
     Claim(id="own-speed-lammps", **OUTSIDE, at_most=1, because="no dearer", evidence="bench/lammps.csv",
           value=bench(largest_per("rows", one("lammps", "value", **TIMED, style="spam-corrected")
                                   / least("lammps", "value", **TIMED, style=tuple(LAMMPS)))),
@@ -129,12 +113,6 @@ CLAIMS = (
           because="asked for before that run; with 16, 25, 35 rows it was 21, 7, 1.2 %",
           statement="LAMMPS' RHEO comes to 1 % in K of a Boussinesq fluid at Ra 10 000 with 50 rows: "
                     "relative error"),
-    Claim(id="own-speed-lammps-sph", **OUTSIDE, at_most=1, evidence="cost/work_precision.png",
-          value=one("points", "error", method=LAMMPS["sph"], resolution=50)
-          / one("points", "error", method=LAMMPS["sph"], resolution=16),
-          because="what converges has less error with more rows", after="errors had been seen",
-          statement="LAMMPS' sph converges: error of K of a Boussinesq fluid at Ra 10 000 with 50 rows, over "
-                    "that with 16"),
     Claim(id="own-speed-moving-points", source="RR98 Sec. III", at_most=10, because="an order of magnitude",
           value=seconds(MOVING, K)/seconds(GRID, K),
           statement="points that move and exchange over closed faces cost less than ten grids: CPU seconds "
@@ -157,16 +135,12 @@ CLAIMS = (
                       f"thousand to a million {who}")
       for whose, name, method, source, printed, of, who in (
           ("khp95", "spam", LUCY, "KHP95 Sec. II", "N ln N", "", "smooth particles, lists included"),
-          ("own", "fixed", LATTICE, "RR98 Sec. III", "", " over stored edges", "fixed points"),
           ("own", "carried", CARRIED, "RR98 Sec. III", "", " with flips", POINTS))),
     two("spam", LUCY, 1.7, "85 % of what two cores can give", "smooth particles", printed="straightforward"),
-    #: RR98's r0, the rms width of Lucy's weight, is 1.27, 0.85, 0.51 spacings for h = 3, 2, 1.2
-    *(Claim(id=f"{whose}-speed-points-{name}", source="RR98 Sec. IV", printed=printed, at_least=1,
-            value=points(method)/points(GRID), because="as many",
-            statement="one needs more particles than points in a grid, for Eq. 45: points of a lattice "
-                      f"with {h} the spacing, over those of the compressible grid, each with 1 % error in K "
-                      "of Rayleigh-Benard at Ra 10 000")
-      for whose, name, method, h, printed in (
-          ("rr98", "wide", WIDE, "h = 3 a, r0 = 1.27 a above", "more particles than points in a grid"),
-          ("own", "nearest", NEAREST, "h = 1.2 a, r0 = 0.51 a below", ""))),
+    #: RR98's r0, the rms width of Lucy's weight, is 1.27 spacings for h = 3
+    Claim(id="rr98-speed-points-wide", source="RR98 Sec. IV", printed="more particles than points in a grid",
+          at_least=1, value=points(WIDE)/points(GRID), because="as many",
+          statement="one needs more particles than points in a grid, for Eq. 45: points of a lattice with "
+                    "h = 3 a, r0 = 1.27 a above the spacing, over those of the compressible grid, each with "
+                    "1 % error in K of Rayleigh-Benard at Ra 10 000"),
 )

@@ -6,8 +6,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from studies.cost.derive import LEVELS
-from studies.cost.tables import BOUSSINESQ, METHODS
+from studies.cost.tables import BOUSSINESQ, LEVELS, METHODS
 from studies.kit.figure import FILLS, LINES, Drawing, Drawings, figure, numbered
 
 #: scene, quantity, title of each panel

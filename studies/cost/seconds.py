@@ -1,25 +1,19 @@
 """Seconds of a step: how they are measured; how seconds grow with the number of points."""
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass
 from multiprocessing import get_context
 from pathlib import Path
-from resource import RUSAGE_SELF, getpagesize, getrusage
+from resource import getpagesize
 from time import perf_counter, process_time
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
-from continuum.fluid import ConstEta
 from continuum.scene import RayleighBenard
-from particles.integral.points import lattice
-from particles.integrators import RK4
 from particles.run import Plan, run
-from particles.threads import Threads
-from studies.build.scenes import Tile
-from studies.cost.tables import with_err
-from studies.kit.case import Case, Outcome, Report
-from studies.kit.stats import Measured
+from studies.kit.case import Case, Report
+from studies.kit.stats import Measured, with_errors
+from studies.kit.table import Row
 from studies.kit.timing import REPEATS, SPREAD_TO_ERR
 
 Clock = Callable[[], float]
@@ -28,7 +22,7 @@ MANY = 100_000      # most steps of that run
 
 WARM = 16           # steps of particles before they are timed, and of a lap: enough to make lists anew
 LAPS, WORK = (5, 25), 2e6               # least and most laps; particles times steps that are enough
-ETA = 0.5
+A_POINT = 7.6e-5                        # seconds that a case takes per point
 TURNS, A_TURN = 12, 2                   # turns of one and two threads; laps in each
 
 
@@ -102,11 +96,6 @@ class Flock(NamedTuple):
         method, start, dt = variant.ready(RayleighBenard(ra=1e4, L=float(rows)))
         return cls(method, start, dt, threads)
 
-    def seconds(self, short: float) -> Measured:
-        """CPU seconds of a step."""
-        count = WORK/(WARM*self.start.shape[1])
-        return median(self.laps(int(np.clip(count, *LAPS)), process_time))
-
     def laps(self, count: int, clock: Clock) -> np.ndarray:
         """Seconds of a step in each of `count` laps; one lap more before them does not count."""
         laps, steps = Laps(clock), WARM*(count + 1)
@@ -119,65 +108,36 @@ class Flock(NamedTuple):
         return np.diff(laps.at)/WARM
 
 
-class Web(NamedTuple):
-    """RK4 over stored edges of a periodic lattice, twice as many columns as rows."""
-    sums: Any
-    start: np.ndarray
-
-    @classmethod
-    def of(cls, variant: Any, rows: int) -> "Web":
-        x = lattice((2*rows, rows)).x
-        method, start, _ = variant.ready(
-            Tile(width=2*rows, L=rows, law=ConstEta(ETA, ETA)), fields=(1.0, 0.01*np.sin(x), np.ones(len(x))))
-        return cls(method.start(len(x), Threads(1)), start)
-
-    def seconds(self, short: float) -> Measured:
-        """CPU seconds of a step that is certainly stable there."""
-        return per_step(lambda steps: stepped(self.sums, self.start, 0.1, steps), short)
-
-
-def stepped(sums: Any, state: np.ndarray, dt: float, steps: int) -> np.ndarray:
-    """A state after so many steps of RK4, without checks or records."""
-    integrator, now = RK4(state.shape, Threads(1)), state.copy()
-    for _ in range(steps):
-        integrator.step(sums, now, dt)
-    return now
-
-
-@dataclass(frozen=True, kw_only=True)
-class StepTime(Case):
-    """CPU seconds of a step of so many rows of points."""
-    name: str
+class StepTime(Case, table="growth", same="method"):
+    """CPU seconds of a step of so many rows of points. method : its name, variant : of `studies.build`."""
+    method: str
     variant: Any
-    kind: type[Flock] | type[Web]
     rows: int
-    a_point: float = 7.6e-5     # seconds that the case takes per point
-    short: float = SHORT
     alone: ClassVar[bool] = True
     what: ClassVar[str] = "growth"
 
     @property
     def cost(self) -> float:
-        return 0.5 + self.a_point*2*self.rows**2
+        return 0.5 + A_POINT*2*self.rows**2
 
     @property
     def label(self) -> str:
-        return f"{self.what}, {self.name}, {self.rows} rows"
+        return f"{self.what}, {self.method}, {self.rows} rows"
 
-    def run(self, report: Report, folder: Path) -> Outcome:
-        many = self.kind.of(self.variant, self.rows)
-        return Outcome({"growth": [self.row(many, many.seconds(self.short), 1, "cpu")]})
-
-    def row(self, many: Flock | Web, seconds: Measured, threads: int, clock: str) -> dict[str, Any]:
-        """A row of the table `growth`."""
-        return {"method": self.name, "points": many.start.shape[1], "threads": threads, "clock": clock,
-                **with_err(step_s=seconds)}
+    def measure(self, report: Report) -> Iterator[Row]:
+        flock = Flock.of(self.variant, self.rows)
+        count = WORK/(WARM*flock.start.shape[1])
+        laps = flock.laps(int(np.clip(count, *LAPS)), process_time)
+        yield row(flock, median(laps), 1, "cpu")
 
 
-@dataclass(frozen=True, kw_only=True)
-class TwoThreads(StepTime):
+def row(flock: Flock, seconds: Measured, threads: int, clock: str) -> Row:
+    """A row of the table `growth`."""
+    return {"points": flock.start.shape[1], "threads": threads, "clock": clock, **with_errors(step_s=seconds)}
+
+
+class TwoThreads(StepTime, table="growth"):
     """Wall time of steps of one thread and of two, in turns, so that other load slows both alike."""
-    kind: type[Flock] = Flock
     turns: int = TURNS
     what: ClassVar[str] = "threads"
 
@@ -185,7 +145,7 @@ class TwoThreads(StepTime):
     def cost(self) -> float:
         return self.turns*super().cost
 
-    def run(self, report: Report, folder: Path) -> Outcome:
+    def measure(self, report: Report) -> Iterator[Row]:
         one, two = (Flock.of(self.variant, self.rows, threads) for threads in (1, 2))
         alone, together = list[float](), list[float]()
         for turn in range(self.turns + 1):
@@ -194,29 +154,23 @@ class TwoThreads(StepTime):
                 alone.extend(first)
                 together.extend(second)
             report(turn/self.turns)
-        rows = [self.row(one, median(laps), threads, "wall")
-                for threads, laps in ((1, alone), (2, together))]
-        return Outcome({"growth": rows})
+        yield row(one, median(alone), 1, "wall")
+        yield row(two, median(together), 2, "wall")
 
 
-def resident(variant: Any, rows: int) -> dict[str, int]:
-    """Resident bytes of this process before points are made, in a step, and at most (Linux)."""
+def resident(variant: Any, rows: int) -> Row:
+    """Resident bytes of this process in a step (Linux)."""
     def now(*_: Any) -> int:
         return getpagesize()*int(Path("/proc/self/statm").read_text().split()[1])
-    before = now()
     flock = Flock.of(variant, rows)
     done = run(flock.method, flock.start, Plan(dt=flock.dt, steps=1, every=1, series={"resident": now}))
-    return {"points": flock.start.shape[1], "before": before, "resident": round(done.series["resident"][-1]),
-            "peak": 1024*getrusage(RUSAGE_SELF).ru_maxrss}
+    return {"points": flock.start.shape[1], "resident": round(done.series["resident"][-1])}
 
 
-@dataclass(frozen=True, kw_only=True)
-class Resident(StepTime):
+class Resident(StepTime, table="memory"):
     """Memory of a fresh process that makes one step and nothing else."""
-    kind: type[Flock] = Flock
     what: ClassVar[str] = "memory"
 
-    def run(self, report: Report, folder: Path) -> Outcome:
+    def measure(self, report: Report) -> Iterator[Row]:
         with ProcessPoolExecutor(1, get_context("spawn")) as fresh:
-            sizes = fresh.submit(resident, self.variant, self.rows).result()
-        return Outcome({"memory": [{"method": self.name, **sizes}]})
+            yield fresh.submit(resident, self.variant, self.rows).result()

@@ -17,14 +17,13 @@ from continuum.steady import RK4_DECAY, RK4_SOUND, Time
 from studies.build.answers import answer
 from studies.build.grid import started
 from studies.build.names import START_ENERGY
-from studies.cost.contestants import decay, uncertainty
+from studies.cost.contestants import KNOWN, decay
 from studies.cost.problem import Residuals, Result, relative, rms
 from studies.cost.race import Race
 from studies.cost.rolls import END, OFTEN, Followed, HeatedLayer, unit
 from studies.cost.seconds import Laps, of_calls
-from studies.cost.tables import with_err
 from studies.kit.case import Outcome, Report
-from studies.kit.stats import Measured
+from studies.kit.stats import Measured, with_errors
 
 SAMPLES = 5         # of the seconds of py-pde in the vortex, one for each equal part of a run
 
@@ -63,7 +62,7 @@ class SpectralRace(Race):
         return 3 + 5e-8*self.resolution**6      # three seconds for the exact answer, once in a process
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        ra, n = self.entry.flow.ra, self.resolution
+        ra, n = self.flow.ra, self.resolution
         state, more = solved(ra, n), next(finer for most, finer in FINER.items() if n <= most)
         exact, fewer = solved(ra, more), solved(ra, more - 4)
         uncertain = {name: rms(residual) for name, residual in apart(fewer, exact).items()}
@@ -71,7 +70,7 @@ class SpectralRace(Race):
         report(0.5)
         seconds = of_calls(partial(solved.__wrapped__, ra, n))
         row = {**self.columns, "points": n**2, "of_limit": 1.0, "dt": np.nan, "steps": len(state.changes),
-               **with_err(run_s=seconds, setup_s=Measured(0.0))}
+               **with_errors(run_s=seconds, setup_s=Measured(0.0))}
         return Outcome({"errors": errors, "runs": [row]})
 
 
@@ -84,7 +83,7 @@ class Slow(Gas):
     @property
     def known(self) -> float:
         """Uncertainty of the exact answer."""
-        return uncertainty(self.scene)
+        return KNOWN[self.scene.mach]
 
     @property
     def until(self) -> Time:
@@ -153,7 +152,7 @@ def by_pypde(flow: Any, method: None, size: int, seed: int) -> Slow | Rolling:
 
 @dataclass(frozen=True, kw_only=True)
 class SolverRace(Race):
-    """One call of py-pde, whose gas the entry makes.
+    """One call of py-pde, whose gas `make` gives.
 
     The step is the limit by its own formula; an eighth longer, and a run in the vortex ends early. Compiling
     is not counted, nor what py-pde does around the steps.
@@ -163,7 +162,7 @@ class SolverRace(Race):
         gas, laps = self.made(), Laps()
         end = pypde.solve(gas, until=gas.until, start=gas.begun(), dt=gas.step_limit(), progress=laps)
         set_up = of_calls(lambda: self.made().begun())
-        seconds = with_err(run_s=laps.total(gas.until.samples), setup_s=set_up)
+        seconds = with_errors(run_s=laps.total(gas.until.samples), setup_s=set_up)
         row = {**self.columns, "points": gas.grid.num_cells, "of_limit": 1.0, "dt": np.nan,
                "steps": end.steps, **seconds}
         return Outcome({"errors": list(self.errors(gas.result(end), gas.known)), "runs": [row]})

@@ -5,7 +5,7 @@ convection freezes, against the printed criteria; which stress lattices bear whe
 it does to K. Lengths are in spacings: particles have unit mass at mean density 1.
 """
 from studies.kit.study import Study
-from studies.lattices import cases, claims, figures, makers
+from studies.lattices import cases, claims, figures, loss
 
 STUDY = Study(name="lattices", question=__doc__.split("\n")[0], cases=cases.cases, tables=cases.TABLES,
-              derive=makers.derive, figures=figures.FIGURES, claims=claims.CLAIMS)
+              derive=loss.derive, figures=figures.FIGURES, claims=claims.CLAIMS)

@@ -8,20 +8,17 @@ from particles.weights import Lucy, Monaghan, Weight, WendlandC2, WendlandC4
 from studies.build.spam import TODAY, VARIANTS, Variant
 from studies.kit.case import Case
 from studies.kit.table import Table
-from studies.lattices.crystals import LATTICES, Crystal, LatticeGrowth, Onset, Speed
-from studies.lattices.debye import Debye
+from studies.lattices.crystals import LATTICES, Crystal, Debye, Onset
 from studies.lattices.frozen_flow import Fastest, Freezing
-from studies.lattices.loss import TABLES as LOSS
 from studies.lattices.loss import Thickened
 from studies.lattices.push import MAKERS, PLATES, SHEARED
-from studies.lattices.stirred import Stirred, StirredMaker
+from studies.lattices.stirred import Stirred
 
 WEIGHTS: tuple[type[Weight], ...] = (Lucy, Monaghan, WendlandC2)
 HEXAGONAL = Crystal(lattice=LATTICES["hexagonal"], cells=(14, 8), weight=Lucy, h=3.0, eos=IdealGas())
 SQUARE = replace(HEXAGONAL, lattice=LATTICES["square"], cells=(15, 15))
 #: a van der Waals fluid on a hexagonal lattice that an ideal gas would keep
 COLD = replace(HEXAGONAL, h=2.5, eos=VanDerWaals())
-COLD_STATES = ((0.1, 1.0), (0.15, 1.0), (0.2, 1.0), (0.15, 1.2), (0.2, 1.2))     # T, rho
 COLD_WEIGHTS = ((Lucy, 2.5), (WendlandC2, 2.5), (WendlandC4, 3.0))      # weight, h
 #: (crystal, weight, stable range, unstable range)
 UNSTABLE_RANGES = (
@@ -46,7 +43,7 @@ def cases(size: str) -> list[Case]:
 
 def quick() -> Iterator[Case]:
     """A few cases of each kind."""
-    yield from (*list(growth())[::5], *list(onsets())[::9], *speeds(), *spectra())
+    yield from (*list(onsets())[::9], *spectra())
     for U, variant in product((0.05, 0.1, 0.2), ("printed", "less-static-50")):
         yield Stirred(variant=VARIANTS[variant], rows=25, U=U, time=3.0)
     yield Stirred(variant=VARIANTS["less-static-90"], mode=PLATES, rows=25, time=3.0)
@@ -55,18 +52,8 @@ def quick() -> Iterator[Case]:
 
 def paper() -> Iterator[Case]:
     """All cases with all seeds."""
-    yield from (*growth(), *onsets(), *freezing(), *speeds(), *spectra())
+    yield from (*onsets(), *freezing(), *spectra())
     yield from (*stirred(), *aligned(), *ranges(), *(Thickened(ra=ra) for ra in RAYLEIGH), *makers())
-
-
-def growth() -> Iterator[Case]:
-    """Growth on the lattices where runs begin and freeze, of pairs, and in fluids under negative pressure."""
-    for crystal, weight in product((HEXAGONAL, SQUARE), WEIGHTS):
-        yield LatticeGrowth(crystal=replace(crystal, weight=weight))
-    for h in (2.6, 2.8):
-        yield LatticeGrowth(crystal=replace(HEXAGONAL, weight=Monaghan, h=h))
-    for T, rho in COLD_STATES:
-        yield LatticeGrowth(crystal=replace(COLD, T=T, rho=rho))
 
 
 def onsets() -> Iterator[Case]:
@@ -85,12 +72,6 @@ def freezing() -> Iterator[Case]:
     yield Fastest()
 
 
-def speeds() -> Iterator[Case]:
-    """Speeds of sound on lattices."""
-    for lattice, weight in product(LATTICES.values(), WEIGHTS):
-        yield Speed(lattice=lattice, weight=weight)
-
-
 def spectra() -> Iterator[Case]:
     """Numbers of long waves on lattices."""
     for crystal, kind, h in product((HEXAGONAL, SQUARE), WEIGHTS, (2.5, 3.0, 4.0, 5.0, 6.0)):
@@ -98,7 +79,7 @@ def spectra() -> Iterator[Case]:
 
 
 def stirred() -> Iterator[Stirred]:
-    """Stirred vortices: forces, rows, viscosities, pressures, steps, weights; corrected sums."""
+    """Stirred vortices: forces, rows, viscosities, pressures, weights."""
     printed = VARIANTS["printed"]
     forces, few = (0.02, 0.05, 0.1, 0.2, 0.4), (0.1, 0.2, 0.4)
     for rows, U, seed in (*product((25,), forces, SEEDS), *product((50,), forces, SEEDS[:2]),
@@ -109,9 +90,6 @@ def stirred() -> Iterator[Stirred]:
     for seed in SEEDS:
         for thick in (0.4, 2.0, 4.0):
             yield Stirred(variant=printed, rows=25, thick=thick, seed=seed)
-        yield Stirred(variant=VARIANTS["printed-half-step"], rows=25, seed=seed)
-        yield Stirred(variant=printed, rows=25, seed=seed, corrected=True)
-    yield Stirred(variant=printed, rows=50, corrected=True)
 
 
 def aligned() -> Iterator[Stirred]:
@@ -137,10 +115,10 @@ def ranges() -> Iterator[Stirred]:
     yield Stirred(variant=growing(200), rows=200, time=2.5)
 
 
-def makers() -> Iterator[StirredMaker]:
+def makers() -> Iterator[Stirred]:
     """Stirred vortices of today's smooth particles, at three forces each."""
     for name, U in product(MAKERS, (0.1, 0.2, 0.4)):
-        yield StirredMaker(variant=TODAY[name], rows=25, U=U)
+        yield Stirred(variant=TODAY[name], rows=25, U=U)
 
 
 def growing(rows: int) -> Variant:
@@ -150,9 +128,6 @@ def growing(rows: int) -> Variant:
 
 CRYSTAL = "lattice weight h eos T rho"
 RATES = "predicted measured measured_err"
-RATE = ("growth rate", "1/t0")
-GROWTH = Table.of("growth", CRYSTAL, RATES, means={"predicted": RATE, "measured": RATE},
-                  about="The fastest growing motion of a lattice: by lattice sums, and in a run.")
 ONSETS = Table.of("onsets", f"{CRYSTAL} parameter seed", RATES,
                   about="Where motions of a lattice begin to grow as `parameter` is changed.",
                   means={"measured": ("value of the parameter", "a or epsilon/kB")})
@@ -167,19 +142,16 @@ FREEZING_LIMITS = Table.of("freezing_limits", "weight seed step", "measured meas
 FREEZING_FLOW = Table.of("freezing_flow", "ra rows", "fastest",
                          means={"fastest": ("largest v^2 over 2 K", "")},
                          about="How uneven the grid's flow of that gas is.")
-SPEEDS = Table.of("sound_speeds", "lattice weight", "speed", about="The longest waves along x on a lattice.",
-                  means={"speed": ("speed of sound over the fluid's", "")})
 DEBYE = Table.of("debye", CRYSTAL, "sound shear",
                  about="Long waves on a lattice: their number below a frequency over that of the fluid's.",
                  means={"sound": ("of the faster ones", ""),
                         "shear": ("of the slower ones, if none grows", "")})
 OVER = "over that of the exact flow"
 DRIVEN = Table.of(
-    "driven", "variant h corrected rows seed mode walls U thick P",
+    "driven", "variant h rows seed mode walls U thick P",
     "flow flow_err excess excess_err stress stress_err kinetic kinetic_err friction symbol slip",
     about="A flow that a force holds, without gravity or heat: who bears the force. Stresses are amplitudes.",
     means={"mode": ("stirred: vortices; sheared: along x; plates: along x between plates", ""),
-           "corrected": ("pressures times the inverse of M_i", ""),
            "walls": ("what is behind plates, in the mode plates", ""),
            "U": ("amplitude of the exact flow", "a/t0"), "thick": ("viscosity over rows/100", ""),
            "P": ("part of the static pressure that the sums hold", "epsilon/a^2"),
@@ -189,4 +161,19 @@ DRIVEN = Table.of(
            "friction": ("stress of viscosity", "epsilon/a^2"),
            "symbol": ("friction of the scheme on a lattice over the exact one", ""),
            "slip": ("slip length at the plates", "a")})
-TABLES = (GROWTH, ONSETS, FREEZING, FREEZING_LIMITS, FREEZING_FLOW, SPEEDS, DEBYE, DRIVEN, *LOSS)
+THICKENED = Table.of(
+    "thickened", "ra thick q", "ke share", about="The grid's layer, so many times as viscous as at its Ra.",
+    means={"thick": ("viscosity over that of the layer of this Ra", ""), "q": ("power of the law", ""),
+           "share": ("<P^(1-q) (eta gamma)^q gamma>/<eta gamma^2>, of its own viscosity", "")})
+LAWS = Table.of(
+    "laws", "variant", "C C_err q q_err scatter runs",
+    about="tau = C P^(1-q) (eta gamma)^q of stirred particles; one law for all parts of static pressure.",
+    means={"C": ("stress over P where eta gamma = P", ""), "q": ("its power", ""), "runs": ("fitted", ""),
+           "scatter": ("rms of ln(measured/law)", "")})
+FORETOLD = Table.of(
+    "foretold", "variant ra rows", "x slip bulk predicted predicted_err measured measured_err",
+    about="K of smooth particles over that of the grid, seen alike: by the law and as measured.",
+    means={"x": ("viscosity that the law makes, over the given one; none: all rests", ""),
+           "slip": ("slip length of the plates", "a"), "bulk": ("K by the law, without slip", ""),
+           "predicted": ("K by law and slip", ""), "measured": ("Kg of results/rb/errors.csv", "")})
+TABLES = (ONSETS, FREEZING, FREEZING_LIMITS, FREEZING_FLOW, DEBYE, DRIVEN, THICKENED, LAWS, FORETOLD)

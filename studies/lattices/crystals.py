@@ -9,24 +9,22 @@ About rest at summed density rho, without conduction, displacements u exp(ik.r) 
 The sums are over the neighbours r of a particle; c is the isentropic speed of sound. A motion with a negative
 eigenvalue of M grows: with some weights lattices turn into pairs; fluids under negative pressure clump.
 """
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 from scipy.optimize import brentq
 
-from continuum.fluid import IdealGas, energy, pressure, pressure_slopes
+from continuum.fluid import energy, pressure, pressure_slopes
 from particles.limits import step_limit
 from particles.observe import particle_kinetic
 from particles.run import STUDIES, Divergence, Plan, run
 from particles.weights import value_and_slope
 from studies.build.spam import at_rest, fluid
-from studies.kit.case import Case, Outcome, Report
-from studies.kit.fits import line
-from studies.kit.stats import Measured, with_errors
+from studies.kit.case import Case, Report
+from studies.kit.table import Row
 
 
 class Lattice(NamedTuple):
@@ -118,31 +116,15 @@ def matrices(of_unit: Sums, eos: Any, e: float, m: float = 1.0) -> np.ndarray:
     return (m/rho)**2*(c2 - 2*P/rho)*SS + 2*m*P/rho**2*D
 
 
-LONG = 1000.0       # wavelength in spacings: sound has the speed of the longest waves to 1e-5
-
-
-@dataclass(frozen=True, kw_only=True)
-class Speed(Case):
-    """Speed of the longest waves along x over the fluid's, ideal gas at T = 1, h = 3 spacings."""
-    lattice: Lattice
-    weight: Any
-
-    def run(self, report: Report, folder: Path) -> Outcome:
-        k = 2*np.pi/LONG
-        M = matrices(sums(self.weight.of(h=3.0), self.lattice, np.array([[k, 0.0]])), IdealGas(), 1.0)
-        speed = np.sqrt(M[0, 0, 0]/2)/k         # c^2 = 2
-        return Outcome({"sound_speeds": [
-            {"lattice": self.lattice.name, "weight": self.weight.__name__, "speed": speed}]})
-
-
-# --- motions that grow ----------------------------------------------------------------------------
+# --- a lattice of some fluid ------------------------------------------------------------------------
 
 SHIFT = 1e-8                    # displacements at the start, spacings
-LINEAR = (1e-12, 1e-6)          # kinetic energies at shifts of 1e-6 to 1e-2 spacings, where motions are small
 GROWN = 100.0                   # factor of the energy that counts as growth in the search for the onset
 PATIENCE = 200.0                # duration of runs of a search: ln 10/200 is a rate of 0.012
 HALVINGS = 8
-PHASE = 1.0                     # of a cosine, which without it may vanish at all places at the zone's edge
+SMALL = 1e-3                    # wave number that counts as zero
+C2 = 2.0                        # of the ideal gas at T = 1
+DIRECTIONS = np.linspace(0, np.pi, 24, endpoint=False)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -160,12 +142,19 @@ class Crystal:
     def e(self) -> float:
         return float(energy(self.eos, self.rho, self.T))
 
+    def matrices(self, k: np.ndarray) -> np.ndarray:
+        """M (n, 2, 2) at wave vectors k (n, 2)."""
+        return matrices(sums(self.weight.of(h=self.h), self.lattice, k), self.eos, self.e, self.rho)
+
+    def squares(self, k: np.ndarray) -> np.ndarray:
+        """omega^2 (n, 2) of both motions at wave vectors k (n, 2), the slower one first."""
+        return np.linalg.eigvalsh(self.matrices(k))
+
     @property
     def motion(self) -> LatticeMotion:
         """The motion that grows fastest by lattice sums, or the slowest one if none grows."""
         k = self.lattice.vectors(self.cells)
-        M = matrices(sums(self.weight.of(h=self.h), self.lattice, k), self.eos, self.e, self.rho)
-        squares, a = np.linalg.eigh(M)
+        squares, a = np.linalg.eigh(self.matrices(k))
         i = int(np.argmin(squares[:, 0]))
         square = float(squares[i, 0])
         return LatticeMotion(k[i], a[i, :, 0], square, float(-np.sign(square)*np.sqrt(abs(square))))
@@ -192,30 +181,25 @@ class Crystal:
         return times, np.array(energies)
 
 
-def growth(times: np.ndarray, energies: np.ndarray) -> Measured:
-    """Growth rate of the motion, half of the energy's, while it is small and has left its start behind."""
-    low, high = LINEAR
-    until = np.argmax(energies > high)
-    times, energies = times[:until], energies[:until]
-    linear = energies > low
-    return line(times[linear], np.log(energies[linear])/2).slope
+# --- cases ----------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, kw_only=True)
-class LatticeGrowth(Case):
-    """The rate at which the fastest growing motion of a lattice grows, started alone."""
+class Debye(Case, table="debye"):
+    """Numbers of long waves of a lattice, from their speeds, over those of Debye's continuum.
+
+    In 2D there are omega^2/(4 pi n c^2) waves per particle below omega, of each kind. A fluid has one kind,
+    sound, in which the density fluctuates. A lattice has shear waves, too.    [KHP95, Sec. VII]
+    """
     crystal: Crystal
 
-    def run(self, report: Report, folder: Path) -> Outcome:
-        k, a, _, predicted = self.crystal.motion
-        time = 20/predicted         # e^20: from 1e-8 to beyond what is linear
-        rate = growth(*self.crystal.energies(time, lambda x: np.outer(np.cos(x@k + PHASE), a)))
-        return Outcome({"growth": [
-            {**self.crystal.columns, "predicted": predicted, **with_errors(measured=rate)}]})
+    def measure(self, report: Report) -> Iterator[Row]:
+        k = SMALL*np.stack([np.cos(DIRECTIONS), np.sin(DIRECTIONS)], axis=1)
+        long = self.crystal.squares(k)
+        shear, sound = np.where(long > 0, C2*SMALL**2/long, np.nan).mean(axis=0)
+        yield {**self.crystal.columns, "sound": sound, "shear": shear}
 
 
-@dataclass(frozen=True, kw_only=True)
-class Onset(Case):
+class Onset(Case, table="onsets", same="parameter seed"):
     """The value of h or T at which motions begin to grow, by halving [stable, unstable]."""
     crystal: Crystal
     parameter: str
@@ -223,7 +207,7 @@ class Onset(Case):
     unstable: float
     seed: int = 1
 
-    def run(self, report: Report, folder: Path) -> Outcome:
+    def measure(self, report: Report) -> Iterator[Row]:
         stable, unstable = self.stable, self.unstable
         predicted = brentq(lambda value: self.at(value).motion.rate, stable, unstable, xtol=1e-6)
         middle = (stable + unstable)/2
@@ -231,9 +215,8 @@ class Onset(Case):
             report(number/HALVINGS)
             stable, unstable = (stable, middle) if self.grows(middle) else (middle, unstable)
             middle = (stable + unstable)/2
-        return Outcome({"onsets": [
-            {**self.crystal.columns, self.parameter: 0.0, "parameter": self.parameter, "seed": self.seed,
-             "predicted": predicted, "measured": middle, "measured_err": abs(stable - unstable)/2}]})
+        yield {**self.crystal.columns, self.parameter: 0.0, "predicted": predicted, "measured": middle,
+               "measured_err": abs(stable - unstable)/2}
 
     def at(self, value: float) -> Crystal:
         """The crystal with this value of the parameter."""

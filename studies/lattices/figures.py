@@ -11,7 +11,7 @@ from studies.lattices.loss import fitted, projected
 #: part of the static pressure that the sums hold -> label
 HELD = {5.0: "five times", 2.0: "twice", 1.0: "as printed", 0.5: "half", 0.1: "a tenth"}
 SERIES = {"printed": "Lucy, h = 3 a", "fixed": "Wendland C2, h = 3 a",
-          "joint": r"Wendland C2, h $\propto$ rows$^{1/2}$", "corrected": r"Lucy, $P_i M_i^{-1}$ for $P_i$"}
+          "joint": r"Wendland C2, h $\propto$ rows$^{1/2}$"}
 
 
 def stress(driven: pd.DataFrame, laws: pd.DataFrame, foretold: pd.DataFrame) -> Figure:
@@ -50,9 +50,8 @@ def series(driven: pd.DataFrame, name: str) -> pd.DataFrame:
     """Runs of vortices at one force that belong to one of SERIES."""
     some = driven.query("mode == 'stirred' and U == 0.2 and thick == 1")
     wide = np.isclose(some.h, 3*np.sqrt(some.rows/25))
-    kinds = {"printed": (some.variant == "printed") & ~some.corrected,
-             "fixed": (some.variant == "wendland-c2") & (some.h == 3),
-             "joint": (some.variant == "wendland-c2") & wide, "corrected": some.corrected}
+    kinds = {"printed": some.variant == "printed", "fixed": (some.variant == "wendland-c2") & (some.h == 3),
+             "joint": (some.variant == "wendland-c2") & wide}
     return some[kinds[name]]
 
 

@@ -4,7 +4,7 @@ The continuum equations do not depend on this pressure. It is added to the sums,
 balances it, as a negative fraction of the static pressure that `LessStatic` leaves out. P is the pressure
 left at mid-height, 1 as printed.
 """
-from dataclasses import dataclass
+from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -23,12 +23,13 @@ from studies.build.measure import FINE, Smoothing, flowing, smoothed_energy
 from studies.build.spam import OF_LIMIT, Variant
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import with_errors
+from studies.kit.table import Row
 
 ROWS = 16
 SCENE = RayleighBenard(ra=3000.0, L=float(ROWS))
 UNIT = SCENE.L/SCENE.free_fall
 RANGE = 3.0
-HALVINGS = 5
+PRESSURES, HALVINGS = (0.25, 8.0), 5
 FROZEN = 0.1            # over the energy of the grid's field, smoothed by the same weight
 T_END = 60.0            # free-fall times
 MEAN_FROM = 30.0
@@ -51,29 +52,21 @@ def criteria(weight: Any, K: float) -> dict[str, float]:
     return {"K": K, "barrier": K/centre, "melting": K/(near - far)}
 
 
-@dataclass(frozen=True, kw_only=True)
-class Freezing(Case):
-    """The pressure at which flow freezes, by halving [low, high] on a logarithmic scale.
+class Freezing(Case, same="weight seed step"):
+    """The pressure at which flow freezes, by halving PRESSURES on a logarithmic scale.
 
     step : over that of other studies.
     """
     weight: Any
     seed: int = 1
-    low: float = 0.25
-    high: float = 8.0
     step: float = 1.0
 
     @property
     def cost(self) -> float:
         return 20.0/self.step
 
-    @property
-    def columns(self) -> dict[str, Any]:
-        """Key columns of its rows."""
-        return {"weight": self.weight.__name__, "seed": self.seed, "step": self.step}
-
     def run(self, report: Report, folder: Path) -> Outcome:
-        low, high, rows = np.log(self.low), np.log(self.high), []
+        (low, high), rows = np.log(PRESSURES), []
         plain, smooth = grid_energies(self.weight)
         for number in range(HALVINGS):
             report(number/HALVINGS)
@@ -90,7 +83,7 @@ class Freezing(Case):
         return Outcome({"freezing": rows, "freezing_limits": [
             {**self.columns, "measured": limit, "measured_err": half, **criteria(self.weight, plain)}]})
 
-    def row(self, P: float, K: float) -> dict[str, Any]:
+    def row(self, P: float, K: float) -> Row:
         """The row of one run at pressure P. K : of the grid's smoothed field."""
         variant = Variant("pressure", weight=self.weight, h=RANGE, fraction=1 - P, step=self.step*OF_LIMIT)
         method, start, dt = variant.ready(SCENE, self.seed)
@@ -108,15 +101,13 @@ class Freezing(Case):
         return {**key, "lindemann": fluctuation, **with_errors(flow=flow/K)}
 
 
-@dataclass(frozen=True, kw_only=True)
-class Fastest(Case):
+class Fastest(Case, table="freezing_flow"):
     """Ratio of the largest v^2 of the grid's flow to its mean, on several grids."""
     cost = 20.0
 
-    def run(self, report: Report, folder: Path) -> Outcome:
-        return Outcome({"freezing_flow": [
-            {"ra": SCENE.ra, "rows": solution.rows, "fastest": fastest(solution.fields)}
-            for solution in steady_on(SCENE, (*GRIDS, 32))]})
+    def measure(self, report: Report) -> Iterator[Row]:
+        for solution in steady_on(SCENE, (*GRIDS, 32)):
+            yield {"ra": SCENE.ra, "rows": solution.rows, "fastest": fastest(solution.fields)}
 
 
 def fastest(fields: NodeFields) -> float:

@@ -15,11 +15,12 @@ of the gas. Three steps lead to K, none of which uses particles in convection:
 3. K D ~ Nu - 1 ~ 1 - Ra_c/Ra: K = K_grid(Ra/x, x) [1 - Ra_c(b) x/Ra]/[1 - Ra_c(0) x/Ra] D(0)/D(b).
 
 Step 3 was chosen after a look: with K ~ 1 - (Ra_c/Ra)^(1/2) in its place the gain by slip is half as large.
+
+For today's smooth particles, MAKERS, tau is the excess over friction. Where that of some run does not differ
+from zero it is a viscosity, tau = C eta gamma. Odd images, which all of them have, do not slip.
 """
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import cache
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -32,13 +33,14 @@ from scipy.special import gamma
 from continuum.gas.solve import steady_on
 from continuum.linear import DEGREE, PlateKind, forms
 from continuum.scene import RayleighBenard
-from studies.build.spam import VARIANTS, Variant
-from studies.kit.case import Case, Outcome, Report
+from studies.build.spam import TODAY, VARIANTS, Variant
+from studies.kit.case import Case, Report
 from studies.kit.csvfile import read
 from studies.kit.fits import power_law
 from studies.kit.stats import Measured, combine, with_errors
 from studies.kit.store import RESULTS
-from studies.kit.table import Row, Rows, Table, Tables, groups
+from studies.kit.table import Row, Rows, Tables, groups
+from studies.lattices.push import MAKERS
 
 GRIDS = (16, 24)                    # rows: K to 1.5 %
 THICK = (1.0, 1.1, 1.2, 1.4, 1.7, 2.0, 2.5, 3.2)
@@ -48,27 +50,11 @@ ROLL = np.pi            # wave number of two rolls in a layer twice as wide as h
 LEAST = 25              # rows from which on K is predicted: the law is one of many particles
 USUAL = 0.02            # J of convection at Ra 10 000, where the error of the law is read
 FAR = ("printed-from-flow", "printed-half-step")
-
-THICKENED = Table.of(
-    "thickened", "ra thick q", "ke share", about="The grid's layer, so many times as viscous as at its Ra.",
-    means={"thick": ("viscosity over that of the layer of this Ra", ""), "q": ("power of the law", ""),
-           "share": ("<P^(1-q) (eta gamma)^q gamma>/<eta gamma^2>, of its own viscosity", "")})
-LAWS = Table.of(
-    "laws", "variant", "C C_err q q_err scatter runs",
-    about="tau = C P^(1-q) (eta gamma)^q of stirred particles; one law for all parts of static pressure.",
-    means={"C": ("stress over P where eta gamma = P", ""), "q": ("its power", ""), "runs": ("fitted", ""),
-           "scatter": ("rms of ln(measured/law)", "")})
-FORETOLD = Table.of(
-    "foretold", "variant ra rows", "x slip bulk predicted predicted_err measured measured_err",
-    about="K of smooth particles over that of the grid, seen alike: by the law and as measured.",
-    means={"x": ("viscosity that the law makes, over the given one; none: all rests", ""),
-           "slip": ("slip length of the plates", "a"), "bulk": ("K by the law, without slip", ""),
-           "predicted": ("K by law and slip", ""), "measured": ("Kg of results/rb/errors.csv", "")})
-TABLES = (THICKENED, LAWS, FORETOLD)
+#: all that are stirred
+KINDS = VARIANTS | {name: TODAY[name] for name in MAKERS}
 
 
-@dataclass(frozen=True, kw_only=True)
-class Thickened(Case):
+class Thickened(Case, table="thickened", same="ra"):
     """The grid's steady layer at an Ra, and in gases more viscous by THICK."""
     ra: float
 
@@ -76,15 +62,13 @@ class Thickened(Case):
     def cost(self) -> float:
         return 12.0
 
-    def run(self, report: Report, folder: Path) -> Outcome:
-        rows: list[Row] = []
+    def measure(self, report: Report) -> Iterator[Row]:
         for thick in (x for x in THICK if self.ra/x > FLOWS):
             fields = steady_on(RayleighBenard(ra=self.ra/thick, pr=thick), GRIDS)[-1].fields
             rate, P, eta, weight, ke = strained(fields, thick)
             for q in POWERS:
                 share = (weight*P**(1 - q)*(eta*rate)**q*rate).sum()/(weight*eta*rate**2).sum()
-                rows.append({"ra": self.ra, "thick": thick, "q": q, "ke": ke, "share": share})
-        return Outcome({"thickened": rows})
+                yield {"thick": thick, "q": q, "ke": ke, "share": share}
 
 
 def strained(fields: Any, thick: float) -> tuple[np.ndarray, np.ndarray, float, np.ndarray, float]:
@@ -114,8 +98,8 @@ def projected(q: float) -> float:
 
 def family(name: str) -> str:
     """Name of the first variant with the same law: it may differ in static pressure, walls and step."""
-    kind = lawful(VARIANTS[name])
-    return next(other.name for other in VARIANTS.values() if lawful(other) == kind)
+    kind = lawful(KINDS[name])
+    return next(other.name for other in KINDS.values() if lawful(other) == kind)
 
 
 def lawful(kind: Variant) -> tuple:
@@ -125,10 +109,10 @@ def lawful(kind: Variant) -> tuple:
 
 def fitted(driven: pd.DataFrame) -> pd.DataFrame:
     """Stirred runs that laws are fitted to, with name of the law, J = eta gamma/P and tau, stress over P."""
-    usual = driven.query("mode == 'stirred' and not corrected and flow > 0.1 and variant not in @FAR")
-    known = usual[usual.variant.isin(VARIANTS)]
-    known = known[known.h == [VARIANTS[name].h for name in known.variant]]
-    return known.assign(law=known.variant.map(family), J=known.friction/known.P, tau=known.stress/known.P)
+    usual = driven.query("mode == 'stirred' and flow > 0.1")
+    known = usual[usual.h == [KINDS[name].h for name in usual.variant]]
+    stress = known.stress.where(~known.variant.isin(MAKERS), known.excess)
+    return known.assign(law=known.variant.map(family), J=known.friction/known.P, tau=stress/known.P)
 
 
 class Law(NamedTuple):
@@ -139,14 +123,21 @@ class Law(NamedTuple):
 
 
 def laws(driven: pd.DataFrame) -> Iterator[Row]:
-    """Laws of all families with three runs or more."""
+    """Laws of all families with three runs or more; those of MAKERS are taken without an error."""
     for name, runs in groups(fitted(driven), "law"):
-        if len(runs) > 2:
+        if len(runs) < 3:
+            continue
+        if name in MAKERS and (runs.excess <= runs.excess_err).any():
+            ratio = runs.tau/runs.J
+            C, q, scatter, spread = Measured(ratio.mean()), Measured(1.0), ratio.std(), 0.0
+        else:
             fit = power_law(runs.J, runs.tau)
-            C = np.exp(fit.intercept.value)/projected(fit.slope.value)
-            yield {"variant": name, **with_errors(C=Measured(C, C*fit.intercept.err), q=fit.slope),
-                   "scatter": np.sqrt(np.mean(fit.residuals**2)), "runs": len(runs),
-                   "spread": fit.at(np.log(USUAL)).err}
+            q, scatter, spread = fit.slope, np.sqrt(np.mean(fit.residuals**2)), fit.at(np.log(USUAL)).err
+            C = Measured(1.0, fit.intercept.err)*(np.exp(fit.intercept.value)/projected(q.value))
+        if name in MAKERS:
+            C, spread = Measured(C.value), 0.0
+        yield {"variant": name, "scatter": scatter, "runs": len(runs), "spread": spread,
+               **with_errors(C=C, q=q)}
 
 
 # --- plates ---------------------------------------------------------------------------------------
@@ -183,6 +174,8 @@ def slips(driven: pd.DataFrame) -> dict[str, Measured]:
 
 def length(slip: dict[str, Measured], kind: Variant) -> float:
     """Slip length of a variant; nan where it was not measured."""
+    if kind.name in MAKERS:
+        return 0.0
     rows = kind.walls.__name__ == "fixed_rows"
     name = "images_odd" if kind.moves else "fixed_rows" if rows else "images"
     return slip[name].value if name in slip else np.nan
@@ -196,6 +189,8 @@ def thickness(layer: pd.DataFrame, law: Law, left: float) -> tuple[float, float]
 
     Of several solutions x the least, which a flow that is strong at first approaches.
     """
+    if law.q == 1:
+        return 1 + law.C, thicker(layer, 1 + law.C)
     by = layer.pivot(index="thick", columns="q", values="share")
     share = np.exp([PchipInterpolator(by.columns, row)(law.q) for row in np.log(by.to_numpy())])
     x = np.linspace(1, by.index[-1], 2001)
@@ -214,15 +209,15 @@ def thicker(layer: pd.DataFrame, x: float) -> float:
 
 
 def foretold(tables: Tables, known: dict[str, Law]) -> Iterator[Row]:
-    """Predicted and measured K of runs in `results/rb`, where the law and the layer of the Ra are known."""
+    """Predicted and measured K of runs in `results/rb`, where law, slip and the layer of the Ra are known."""
     layers, slip = dict(groups(tables["thickened"], "ra")), slips(tables["driven"])
     usual = measured().query("eos == 'ideal' and transport == 'const-eta' and pr == 1 and "
                              f"sides == 'periodic' and resolution >= {LEAST} and variant not in @FAR")
-    for _, one in usual[usual.variant.isin(VARIANTS) & usual.ra.isin(layers)].iterrows():
-        name, kind, law = one.variant, VARIANTS[one.variant], known.get(family(one.variant))
-        if not law:
-            continue
+    for _, one in usual[usual.variant.isin(KINDS) & usual.ra.isin(layers)].iterrows():
+        name, kind, law = one.variant, KINDS[one.variant], known.get(family(one.variant))
         b = length(slip, kind)
+        if not law or np.isnan(b):
+            continue
         x, bulk, K, err = with_slip(layers[one.ra], law, 1 - kind.fraction, b/one.resolution, one.ra)
         yield {"variant": name, "ra": one.ra, "rows": one.resolution, "x": x, "slip": b, "bulk": bulk,
                **with_errors(predicted=Measured(K, err), measured=Measured(1 + one.error, one.error_err))}

@@ -1,4 +1,4 @@
-"""Smooth particles that a force drives, with sums as printed, with corrected pressures, or as of today."""
+"""Smooth particles that a force drives, with sums as printed or as of today."""
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, NamedTuple
@@ -7,7 +7,7 @@ import numpy as np
 
 from particles.pairs import entries
 from particles.smooth.spam import Spam
-from particles.smooth.sums import Direct, Nested
+from particles.smooth.sums import Nested
 from studies.build import spam
 
 Flowing = Callable[[np.ndarray], np.ndarray]     # of phases k (x, y), (2, n)
@@ -78,58 +78,11 @@ class Push(Nested):
         out[2:4] += method.friction*method.k*method.U*method.v(state)
         out[4] = 0.0
 
-    def tensor(self) -> np.ndarray:
-        """Components xx, xy, yy (3, points) of the tensor in place of P/rho^2 in the pressure sum."""
-        P = self.less/self.around.rho**2
-        return np.array([P, 0*P, P])
-
-
-class PushAlong(Push, Direct):
-    """As `Push`, with friction along pairs."""
-    symbol = Direct.symbol
-    allocate, prepare, exchange = Direct.allocate, Direct.prepare, Direct.exchange
-
-
-class Corrected(Push):
-    """P_i M_i^-1 in place of P_i: the pressure sum of a lattice has no deviator, sheared or not."""
-
-    def tensor(self) -> np.ndarray:
-        xx, xy, yy = moments(self)
-        return self.less/self.around.rho**2/(xx*yy - xy**2)*np.array([yy, -xy, xx])
-
-    def exchange(self, less: np.ndarray) -> tuple[Any, np.ndarray]:
-        term, flux = super().exchange(less)
-        change = self.tensor() - super().tensor()
-        for name, part in zip(("xx", "xy", "yx", "yy"), change[[0, 1, 1, 2]]):
-            flux[name] += part
-        return term, flux
-
-
-class OfToday(Push):
-    """Today's sums with the force; the stress of their pressures is not measured."""
-
-    def tensor(self) -> np.ndarray:
-        return np.zeros((3, len(self.around.x)))
-
 
 #: class of sums -> the same with the force
-PUSHED = {kind: type(kind.__name__, (OfToday, kind), {name: getattr(kind, name) for name in (
+PUSHED = {kind: type(kind.__name__, (Push, kind), {name: getattr(kind, name) for name in (
     "allocate", "prepare", "exchange", "gradients", "symbol")}) for kind in (
-        spam.TODAY[name].transport for name in MAKERS)}
-
-
-def moments(sums: Nested) -> np.ndarray:
-    """Components xx, xy, yy (3, points) of M_i."""
-    around, pairs = sums.around, sums.around.pairs
-    row, entry = entries(pairs, np.arange(sums.n))
-    near = pairs.near[entry]
-    dx, dy = ((q[near] - q[row])/around.rho[near] for q in (around.x, around.y))
-    M = np.ones((3, len(around.x)))
-    for part, product in zip(M, (dx*pairs.wx[entry], dx*pairs.wy[entry], dy*pairs.wy[entry])):
-        part[:sums.n] = np.bincount(row, product, sums.n)
-    for _, parent, first, last in around.blocks:
-        M[:, first:last] = M[:, parent]
-    return M
+        Nested, *(spam.TODAY[name].transport for name in MAKERS))}
 
 
 def stresses(sums: Any) -> np.ndarray:
@@ -137,8 +90,7 @@ def stresses(sums: Any) -> np.ndarray:
     around, pairs, n = sums.around, sums.around.pairs, sums.n
     row, entry = entries(pairs, np.arange(n))
     near, wx, wy = pairs.near[entry], pairs.wx[entry], pairs.wy[entry]
-    P = sums.tensor()
-    xx, xy, yy = P[:, row] + P[:, near]
-    fx, fy = xx*wx + xy*wy, xy*wx + yy*wy
+    P = sums.less/around.rho**2
+    fx, fy = (P[row] + P[near])*np.array([wx, wy])
     dx, dy = (q[row] - q[near] for q in (around.x, around.y))
     return np.array([np.bincount(row, q, n)/4 for q in (fx*dx - fy*dy, fx*dy + fy*dx)])

@@ -9,8 +9,8 @@ U v(x), whose stress is n eta k U d(x). A run gives a flow A v(x), and three amp
 
 A fluid has none of these: M_i = sum_j V_j r_ji grad w is the unit matrix there, so that P M_i is a pressure.
 """
-from dataclasses import dataclass, fields
-from pathlib import Path
+from collections.abc import Iterator
+from dataclasses import fields
 from typing import Any
 
 import numpy as np
@@ -20,12 +20,12 @@ from continuum.sides import Periodic
 from particles.limits import lattice_sums, step_limit
 from particles.run import Plan, Run, run
 from particles.smooth.spam import Spam
-from particles.smooth.sums import Direct
 from studies.build import spam
 from studies.build.scenes import Tile
-from studies.kit.case import Case, Outcome, Report
-from studies.kit.stats import mean, with_errors
-from studies.lattices.push import PLATES, PUSHED, STIRRED, Corrected, Driven, Mode, Push, PushAlong, stresses
+from studies.kit.case import Case, Report
+from studies.kit.stats import Measured, mean, with_errors
+from studies.kit.table import Row
+from studies.lattices.push import MAKERS, PLATES, PUSHED, STIRRED, Driven, Mode, stresses
 
 SETTLED = 1/3           # part of a run before means are taken: at least three turns of the flow
 LOOKS = 10              # samples in the time in which friction slows a flow by e
@@ -81,17 +81,15 @@ def slip_length(rows: np.ndarray, h: float) -> float:
     return float(s*L/(np.pi*V))
 
 
-@dataclass(frozen=True, kw_only=True)
-class Stirred(Case):
+class Stirred(Case, table="driven", same="variant mode rows U thick seed"):
     """One flow. U : exact amplitude, as at the start. thick : eta over that of Ra 10 000. time : duration in
-    times of friction. corrected : whether with the sums of `Corrected`."""
+    times of friction."""
     variant: Any
     mode: Mode = STIRRED
     rows: int
     U: float = 0.2
     thick: float = 1.0
     time: float = 8.0
-    corrected: bool = False
     seed: int = 1
 
     @property
@@ -101,13 +99,7 @@ class Stirred(Case):
     @property
     def cost(self) -> float:
         steps = self.time*self.rows/(ETA*4*self.thick*self.mode.halves**2*self.mode.n)
-        return 0.2 + 7e-7*(1 + 9*self.corrected)*self.variant.h*self.width*self.rows*steps
-
-    @property
-    def pushed(self) -> type:
-        """The sums with the force."""
-        along = PushAlong if self.variant.transport is Direct else Push
-        return Corrected if self.corrected else along
+        return 0.2 + 7e-7*self.variant.h*self.width*self.rows*steps
 
     @property
     def method(self) -> Driven:
@@ -115,10 +107,11 @@ class Stirred(Case):
         kind = Layer if self.mode is PLATES else Tile
         scene = kind(width=float(self.width), L=float(self.rows), law=ConstEta(eta, eta))
         plain = spam.method(scene, self.variant)
-        values = {one.name: getattr(plain, one.name) for one in fields(Spam)} | {"transport": self.pushed}
+        values = {one.name: getattr(plain, one.name) for one in fields(Spam)}
+        values["transport"] = PUSHED[self.variant.transport]
         return Driven(**values, mode=self.mode, U=self.U)
 
-    def run(self, report: Report, folder: Path) -> Outcome:
+    def measure(self, report: Report) -> Iterator[Row]:
         method = self.method
         scene = Tile(width=method.box[0], L=method.box[1], law=method.law)
         state = spam.at_rest(spam.scattered(scene, self.seed), 1.0)
@@ -126,36 +119,23 @@ class Stirred(Case):
         dt = self.variant.step*step_limit(method, 1.0)
         once = 1/(method.friction*method.k)     # time of friction at density 1
         steps = round(self.time*once/dt)
-        series = {"A": of_flow, "stress": of_pressure, "kinetic": of_noise}
+        series = {"A": of_flow, "kinetic": of_noise}
+        if self.variant.name not in MAKERS:     # whose pressures have no one tensor
+            series["stress"] = of_pressure
         plan = Plan(dt=dt, steps=steps, every=max(1, round(once/LOOKS/dt)), series=series,
                     means={"rows": in_rows}, mean_from=SETTLED*self.time*once)
-        return Outcome({"driven": [self.row(method, run(method, state, plan, report))]})
+        yield self.row(method, run(method, state, plan, report))
 
-    def row(self, method: Driven, done: Run) -> dict[str, Any]:
+    def row(self, method: Driven, done: Run) -> Row:
         """A row of the table `driven`, with means over the late part of a run."""
-        late = {name: np.array(values)[round(SETTLED*len(values)):] for name, values in done.series.items()}
-        A, stress, kinetic = (mean(late[name]) for name in ("A", "stress", "kinetic"))
+        late = {name: mean(values[round(SETTLED*len(values)):]) for name, values in done.series.items()}
+        A, stress = late["A"], late.get("stress", Measured(np.nan, np.nan))
         slip = slip_length(done.means["rows"], method.weight.h) if self.mode is PLATES else np.nan
         return {
-            "variant": self.variant.name, "h": self.variant.h, "corrected": self.corrected,
-            "rows": self.rows, "seed": self.seed, "cpu_s": done.cpu_s,
-            "mode": self.mode.name, "U": self.U, "thick": self.thick,
-            "walls": self.variant.walls.__name__, "P": 1 - self.variant.fraction,
-            "symbol": symbol(method), "slip": slip, "friction": method.friction*A.value,
+            "h": self.variant.h, "walls": self.variant.walls.__name__, "P": 1 - self.variant.fraction,
+            "symbol": symbol(method), "slip": slip, "friction": method.friction*A.value, "cpu_s": done.cpu_s,
             **with_errors(flow=A/self.U, excess=method.friction*(self.U - A), stress=stress,
-                          kinetic=kinetic)}
-
-
-@dataclass(frozen=True, kw_only=True)
-class StirredMaker(Stirred):
-    """One flow by today's smooth particles, whose stress of pressures is not measured."""
-
-    @property
-    def pushed(self) -> type:
-        return PUSHED[self.variant.transport]
-
-    def row(self, method: Driven, done: Run) -> dict[str, Any]:
-        return {**super().row(method, done), "stress": np.nan, "stress_err": np.nan}
+                          kinetic=late["kinetic"])}
 
 
 def symbol(method: Driven) -> float:
