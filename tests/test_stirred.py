@@ -60,7 +60,8 @@ def test_stresses_are_a_double_sum_over_pairs():
 
 def test_slip_of_an_exact_profile():
     y = np.arange(40) - 19.5
-    assert stirred.slip_length(np.array([0*y + 3, 3*(0.1 + np.cos(np.pi*y/40))]), 3.0) == pytest.approx(4/np.pi)
+    rows = np.array([0*y + 3, 3*(0.1 + np.cos(np.pi*y/40))])
+    assert stirred.slip_length(rows, 3.0) == pytest.approx(4/np.pi)
 
 
 def test_plates_that_slip_are_rigid_and_free_ones_in_the_limits():
