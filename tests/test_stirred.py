@@ -11,9 +11,9 @@ from continuum.linear import PlateKind, critical_ra
 from continuum.scene import RayleighBenard
 from studies.build.scenes import Tile
 from studies.build.spam import TODAY, VARIANTS, at_rest, scattered
+from studies.lattices import stirred
 from studies.lattices.loss import Law, gain, laws, projected, roll, strained, thickness
-from studies.lattices.push import MAKERS, SHEARED, STIRRED, stresses
-from studies.lattices.stirred import Stirred, amplitude, slip_length, symbol
+from studies.lattices.stirred import MAKERS, SHEARED, STIRRED, Stirred, amplitude, stresses, symbol
 
 PRINTED = VARIANTS["printed"]
 
@@ -60,7 +60,8 @@ def test_stresses_are_a_double_sum_over_pairs():
 
 def test_slip_of_an_exact_profile():
     y = np.arange(40) - 19.5
-    assert slip_length(np.array([0*y + 3, 3*(0.1 + np.cos(np.pi*y/40))]), 3.0) == pytest.approx(4/np.pi)
+    rows = np.array([0*y + 3, 3*(0.1 + np.cos(np.pi*y/40))])
+    assert stirred.slip_length(rows, 3.0) == pytest.approx(4/np.pi)
 
 
 def test_plates_that_slip_are_rigid_and_free_ones_in_the_limits():

@@ -11,8 +11,7 @@ from studies.kit.table import Table
 from studies.lattices.crystals import LATTICES, Crystal, Debye, Onset
 from studies.lattices.frozen_flow import Fastest, Freezing
 from studies.lattices.loss import Thickened
-from studies.lattices.push import MAKERS, PLATES, SHEARED
-from studies.lattices.stirred import Stirred
+from studies.lattices.stirred import MAKERS, PLATES, SHEARED, Stirred
 
 WEIGHTS: tuple[type[Weight], ...] = (Lucy, Monaghan, WendlandC2)
 HEXAGONAL = Crystal(lattice=LATTICES["hexagonal"], cells=(14, 8), weight=Lucy, h=3.0, eos=IdealGas())

@@ -11,7 +11,7 @@ from studies.kit.claim import Claim
 from studies.kit.stats import CannotTell, Measured
 from studies.kit.stats import over_seeds as mean_of
 from studies.kit.table import Tables
-from studies.lattices.push import MAKERS
+from studies.lattices.stirred import MAKERS
 
 #: the layer of Fig. 4 that most is asked of
 GAS: dict[str, Any] = {"weight": "Lucy", "step": 1.0}

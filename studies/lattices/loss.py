@@ -40,7 +40,7 @@ from studies.kit.fits import power_law
 from studies.kit.stats import Measured, combine, with_errors
 from studies.kit.store import RESULTS
 from studies.kit.table import Row, Rows, Tables, groups
-from studies.lattices.push import MAKERS
+from studies.lattices.stirred import MAKERS
 
 GRIDS = (16, 24)                    # rows: K to 1.5 %
 THICK = (1.0, 1.1, 1.2, 1.4, 1.7, 2.0, 2.5, 3.2)

@@ -9,28 +9,119 @@ U v(x), whose stress is n eta k U d(x). A run gives a flow A v(x), and three amp
 
 A fluid has none of these: M_i = sum_j V_j r_ji grad w is the unit matrix there, so that P M_i is a pressure.
 """
-from collections.abc import Iterator
-from dataclasses import fields
-from typing import Any
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, fields
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from continuum.fluid import ConstEta
 from continuum.sides import Periodic
 from particles.limits import lattice_sums, step_limit
+from particles.pairs import entries
 from particles.run import Plan, Run, run
 from particles.smooth.spam import Spam
+from particles.smooth.sums import Nested
 from studies.build import spam
 from studies.build.scenes import Tile
 from studies.kit.case import Case, Report
 from studies.kit.stats import Measured, mean, with_errors
 from studies.kit.table import Row
-from studies.lattices.push import MAKERS, PLATES, PUSHED, STIRRED, Driven, Mode, stresses
 
 SETTLED = 1/3           # part of a run before means are taken: at least three turns of the flow
 LOOKS = 10              # samples in the time in which friction slows a flow by e
 ETA = 0.01              # over L: viscosity of KHP95's gas at Ra 10 000
 CHANNEL = 25            # columns of flows along x: too few for the longer waves that shear makes unstable
+Flowing = Callable[[np.ndarray], np.ndarray]     # of phases k (x, y), (2, n)
+#: today's smooth particles that are stirred, too
+MAKERS = ("sph", "riemann", "sumB", "RKGC", "bonet-lok", "corrected", "CRKSPH", "MFM", "MFM-adiabatic")
+
+
+# --- sums with a force ---------------------------------------------------------------------------
+
+
+class Mode(NamedTuple):
+    """A flow U v of wave number k = halves pi/L. Its rate of strain ((xx - yy)/2, xy) is n U k/2 times d."""
+    name: str
+    v: Flowing
+    d: Flowing
+    n: int = 1
+    halves: int = 2
+    phase: float = 0.0
+
+
+def swirl(p: np.ndarray) -> np.ndarray:
+    """Taylor-Green vortices, whose advection is balanced by a pressure."""
+    return np.array([np.sin(p[0])*np.cos(p[1]), -np.cos(p[0])*np.sin(p[1])])
+
+
+def stretch(p: np.ndarray) -> np.ndarray:
+    return np.array([np.cos(p[0])*np.cos(p[1]), 0*p[0]])
+
+
+def slide(p: np.ndarray) -> np.ndarray:
+    return np.array([np.sin(p[1]), 0*p[0]])
+
+
+def slope(p: np.ndarray) -> np.ndarray:
+    return np.array([0*p[0], np.cos(p[1])])
+
+
+STIRRED = Mode("stirred", swirl, stretch, n=2)
+SHEARED = Mode("sheared", slide, slope)
+PLATES = Mode("plates", slide, slope, halves=1, phase=np.pi/2)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Driven(Spam):
+    """Smooth particles with a force that holds the flow U v of a mode."""
+    mode: Mode
+    U: float
+
+    @property
+    def k(self) -> float:
+        return self.mode.halves*np.pi/self.box[1]
+
+    @property
+    def friction(self) -> float:
+        """Amplitude of the stress of friction in a flow of amplitude 1."""
+        return self.mode.n*self.law.eta*self.k
+
+    def v(self, state: np.ndarray) -> np.ndarray:
+        return self.mode.v(self.k*state[:2] + self.mode.phase)
+
+    def d(self, state: np.ndarray) -> np.ndarray:
+        return self.mode.d(self.k*state[:2] + self.mode.phase)
+
+
+class Push(Nested):
+    """Sums with the force, at constant energies."""
+
+    def rates(self, state: np.ndarray, out: np.ndarray) -> None:
+        super().rates(state, out)
+        method = self.method
+        out[2:4] += method.friction*method.k*method.U*method.v(state)
+        out[4] = 0.0
+
+
+#: class of sums -> the same with the force
+PUSHED = {kind: type(kind.__name__, (Push, kind), {name: getattr(kind, name) for name in (
+    "allocate", "prepare", "exchange", "gradients", "symbol")}) for kind in (
+        Nested, *(spam.TODAY[name].transport for name in MAKERS))}
+
+
+def stresses(sums: Any) -> np.ndarray:
+    """Components (xx - yy)/2 and xy (2, n) of the stress of the pressure sum, for each particle."""
+    around, pairs, n = sums.around, sums.around.pairs, sums.n
+    row, entry = entries(pairs, np.arange(n))
+    near, wx, wy = pairs.near[entry], pairs.wx[entry], pairs.wy[entry]
+    P = sums.less/around.rho**2
+    fx, fy = (P[row] + P[near])*np.array([wx, wy])
+    dx, dy = (q[row] - q[near] for q in (around.x, around.y))
+    return np.array([np.bincount(row, q, n)/4 for q in (fx*dx - fy*dy, fx*dy + fy*dx)])
+
+
+# --- a run ----------------------------------------------------------------------------------------
 
 
 class Layer(Tile):
