@@ -60,7 +60,8 @@ class Cluster:
         return workers
 
     def submit(self, number: int, case: Case) -> None:
-        # a lambda is sent as code: the scheduler, which unpacks it, needs no copy of the repository
+        # a lambda is sent as code: the scheduler, which unpacks it, needs no copy of the repository;
+        # a case brings the key that it has here, by which a worker sees whether it has other code
         future = self.client.submit(lambda *sent: import_module("studies.kit.cluster").perform(*sent),
                                     pickle.dumps(case), csvfile.versions(), pure=False)
         self.running[future] = number, case.label

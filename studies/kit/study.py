@@ -7,7 +7,7 @@ import signal
 import sys
 import textwrap
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from difflib import get_close_matches
 from importlib import import_module
 from pathlib import Path
@@ -22,11 +22,8 @@ from studies.kit.store import RESULTS, CannotRun, results
 from studies.kit.sweep import GO_ON, CasesFailed, NoSuchCase, Sweep, labelled, load
 from studies.kit.table import SIZES, Row, Rows, Table, Tables, check_once
 
-NO_FIGURES = Drawings()
 LEAST = 8       # rows of a trial run
 COMMANDS = "run", "figures", "claims"
-#: errors that end a study with one line; OSError: a full disk, a folder without write permission
-EXPECTED = (CasesFailed, CannotRun, OtherTable, OSError)
 
 
 class Own(NamedTuple):
@@ -52,7 +49,7 @@ class Study:
     tables: Sequence[Table]
     #: rows that follow from the tables (extrapolations, means over seeds), merged into them
     derive: Callable[[Tables], Rows] = lambda tables: {}
-    figures: Drawings = NO_FIGURES
+    figures: Drawings = field(default_factory=Drawings)
     claims: Sequence[Claim] = ()
     own: Own | None = None
 
@@ -126,7 +123,7 @@ def main(study: Study, arguments: Sequence[str] | None = None) -> None:
         sys.exit(say(f"\n{str(stop) or f'interrupted: {GO_ON}'}", 130))
     except NoSuchCase as error:
         sys.exit(say(f"{study.name}: {error}", 2))
-    except EXPECTED as error:
+    except (CasesFailed, CannotRun, OtherTable, OSError) as error:      # a full disk, no permission to write
         sys.exit(say(f"{study.name}: {error}", 1))
     sys.exit(0)
 
