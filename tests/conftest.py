@@ -24,7 +24,7 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
 
 
 class Sharing(LoadFileScheduling):
-    """Two processes share tests by file, whose fixtures are made once; test_studies by study."""
+    """Two processes share tests by file, so that fixtures are made once; they share test_studies by study."""
 
     def _split_scope(self, nodeid):
         file = Path(nodeid.partition("::")[0]).stem

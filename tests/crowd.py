@@ -52,18 +52,10 @@ def random_fields(n: int, d: int = 2, seed: int = 0) -> tuple:
     return rng.uniform(0.9, 1.1, n), rng.normal(0, 0.2, (n, d)), rng.uniform(0.9, 1.1, n)
 
 
-def refuses_bad_starts(method, make, wrong) -> None:
-    """A number of point 17, and points in one place; wrong: (row, value, words) of each."""
-    plan = Plan(dt=0.01, steps=1)
-    for row, value, words in wrong:
-        state = make()
-        state[row, 17] = value
-        with pytest.raises(ValueError, match=words):
-            run(method, state, plan)
-    state = make()
-    state[:2, 17] = state[:2, 18]
-    with pytest.raises(ValueError, match=r"point 1[78] and point 1[78] overlap at .* move one of them"):
-        run(method, state, plan)
+def alike(found, expected, within: float = 1e-12) -> None:
+    """Rows differ by round-off, relative to the largest value of each."""
+    for one, other in zip(found, expected, strict=True):
+        assert np.abs(one - other).max() < within*np.abs(other).max()
 
 
 def prepare(method, state: np.ndarray, threads: int = 1):
@@ -99,9 +91,3 @@ def advance(method: Spam, state: np.ndarray, dt: float, steps: int, threads: int
             sums.around.relist(now, ids, dt)
         integrator.step(sums, now, dt)
     return now[:, np.argsort(ids)]
-
-
-def total_energy(method: Spam, state: np.ndarray) -> float:
-    """Kinetic, internal and m g y."""
-    _, y, vx, vy, e = state
-    return method.m*float(np.sum(0.5*(vx**2 + vy**2) + e + method.g*y))

@@ -1,5 +1,7 @@
-"""The slow twin of `particles.smooth.meshless` and `riemann`, for `plain`, with the papers' own formulas:
-S/2m^2 of pairs, (n, points, 2), the force of their pressure over m^2 and its work."""
+"""The slow twin of `particles.smooth.meshless` and `riemann`, for `plain`, with the papers' own formulas.
+
+Each function gives S/2m^2 of pairs (n, points, 2), the force of their pressure over m^2, and its work.
+"""
 import numpy as np
 
 from continuum.fluid import energy, sound_speed
@@ -9,7 +11,7 @@ from particles.walls.mirror import Mirror
 
 
 def everywhere(p, rows, vector=0, slope_of_v=False):
-    """Numbers of rows (n, ...) at all points: images turn the first `vector` axes."""
+    """Values of rows (n, ...) at all points; images mirror the first `vector` axes."""
     q = np.concatenate([rows, np.zeros((len(p.x) - len(rows), *rows.shape[1:]))])
     for i, image in enumerate(p.made):
         if image is not None:
@@ -43,6 +45,8 @@ def crksph(method, p, w, grad_w):
             np.einsum("...ac,...a->...c", dB, x) + B))
     n = len(w)
     own = grad(A[:n, None], B[:n, None], dA[:n, None], dB[:n, None], x, w, grad_w)
+    slopes = np.einsum("j,ijc,ija->iac", V, own, -x), np.einsum("j,ijc->ic", V, own)
+    assert np.allclose(slopes[0], eye, atol=1e-12) and np.allclose(slopes[1], 0, atol=1e-12)    # exact
     S = (own - grad(A[None], B[None], dA[None], dB[None], -x, w, -grad_w))/2/p.rho[:n, None, None]
     S /= p.rho[None, :, None]
     P, dv = p.P[:, None], p.v[None] - p.v[:n, None]
@@ -78,7 +82,7 @@ def adiabatic(method, p, w, grad_w):
 
 
 def limited(own, other, value):
-    """Between the own value less half of the difference and the mean plus a quarter, or turned round."""
+    """Value between own - d/2 and the mean + d/4, d = |own - other|, where own < other; else turned round."""
     mean, d = (own + other)/2, abs(own - other)
     up = own < other
     return np.clip(value, np.where(up, own - d/2, mean - d/4), np.where(up, mean + d/4, own + d/2))

@@ -1,6 +1,4 @@
 """Slow, readable twin of `closed_faces`: faces as entries of dense matrices, closed to round-off."""
-from typing import NamedTuple
-
 import numpy as np
 
 from continuum.fluid import conductivity, constant_viscosity, pressure, sound_speed, temperature, viscosity
@@ -9,30 +7,26 @@ from particles.integral.transposed_stress import MENDED
 from particles.weights import value_and_slope
 
 
-class Scene(NamedTuple):
-    """Periodic in x; plates at y = -+ height/2 if T_plates are given, else periodic there, too."""
-    box: tuple[float, float]
-    T_plates: tuple[float, float] | None
+def ghosts(x, y, box, T_plates):
+    """Places of points and images; of each its origin, its turn (-1 behind plates), T of the plate.
 
-
-def ghosts(x, y, scene):
-    """Positions of points and images in rows of them; origin, turn (-1 behind plates), T of the plate."""
-    width, height = scene.box
-    found = [(x, y, np.arange(len(x)), np.ones(len(x)), np.zeros(len(x)))]
+    All is periodic in x. Plates are at y = -+ height/2; without their temperatures y is periodic, too.
+    """
+    (width, height), which, ones = box, np.arange(len(x)), np.ones(len(x))
+    found = [(x, y, which, ones, 0*ones)]
     for side in (-1, 1):
-        if scene.T_plates is None:
-            found.append((x, y + side*height, np.arange(len(x)), np.ones(len(x)), np.zeros(len(x))))
+        if T_plates is None:
+            found.append((x, y + side*height, which, ones, 0*ones))
         else:
-            found.append((x, side*height - y, np.arange(len(x)), -np.ones(len(x)),
-                          np.full(len(x), scene.T_plates[(side + 1)//2])))
+            found.append((x, side*height - y, which, -ones, T_plates[(side + 1)//2]*ones))
     found += [(gx + by, *rest) for gx, *rest in found for by in (-width, width)]
     return [np.concatenate(q) for q in zip(*found, strict=True)]
 
 
-def faces(method, scene, state):
-    """S, k, x_ij (n, all, ...), the pull to even spacing (n, 2), the density of points (n,), images."""
+def faces(method, T_plates, state):
+    """S, k, x_ij (n, all, ...), the pull to even spacing (n, 2), the count of points by w (n,), images."""
     n, V = state.shape[1], state[7]
-    gx, gy, origin, turn, T = ghosts(state[0], state[1], scene)
+    gx, gy, origin, turn, T = ghosts(state[0], state[1], method.box, T_plates)
     apart = np.stack([gx[None] - state[0][:, None], gy[None] - state[1][:, None]], axis=2)
     r = np.sqrt((apart**2).sum(axis=2))
     near = (r < method.weight.h) & (r > 0)
@@ -54,7 +48,7 @@ def faces(method, scene, state):
 
 
 def closed(S, k, apart, V, origin, R):
-    """Faces that close and are exact on linear fields: least change, as dense least squares over phi, psi."""
+    """Faces that close and are exact on linear fields, changed least: dense least squares over phi, psi."""
     n = len(V)
     out = S.copy()
     for a in (0, 1):
@@ -78,7 +72,7 @@ def closed(S, k, apart, V, origin, R):
     return out
 
 
-def rates(method, scene, state, S, k, apart, shift, count, images):
+def rates(method, state, S, k, apart, shift, count, images):
     """d/dt of momentum, mass, volume, energy (5, n)."""
     chosen, (origin, turn, T_plate, R) = method.ingredients, images
     px, py, m, V, E = state[EXCHANGED]
@@ -95,7 +89,7 @@ def rates(method, scene, state, S, k, apart, shift, count, images):
         return q[:, None] + q[origin][None]
 
     def mirrored(q):
-        """That of vectors."""
+        """The sum of vectors at both ends."""
         return q[:, None] + (q[origin]*R)[None]
 
     def step(q):
@@ -129,7 +123,7 @@ def rates(method, scene, state, S, k, apart, shift, count, images):
 
 
 def shift(method, state, pull):
-    """Of points towards even spacing, at most 0.3 of the fastest flow."""
+    """Velocity of points towards even spacing, at most 0.3 of the fastest flow."""
     found = -method.ingredients.shift*pull
     most = 0.3*np.sqrt(((state[4]**2 + state[5]**2)/state[6]**2).max())
     return found*np.minimum(1, most/np.maximum(np.hypot(*found.T), 1e-300))[:, None]

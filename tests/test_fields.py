@@ -1,4 +1,4 @@
-"""Every method gives back the fields that its state was made of, and goes on where it was interrupted."""
+"""Every method gives back the fields of its state, goes on where it was interrupted, refuses bad starts."""
 import importlib
 import inspect
 import pkgutil
@@ -33,6 +33,7 @@ from particles.integral.sheared import Sheared
 from particles.integral.stream import Stream
 from particles.integral.thermal import Thermal
 from particles.limits import limit_of
+from particles.run import Plan, run
 from particles.smooth.spam import Spam
 from particles.walls.periodic import periodic
 from particles.weights import Lucy, WendlandC2
@@ -102,11 +103,10 @@ def test_smooth_particles_have_the_density_of_their_own_sums():
     state = SPAM.state(AT.x, 1.0, v, T)
     sums, ordered, ids = SPAM.look(state)
     fields = SPAM.fields(state)
-    assert np.array_equal(fields.x, AT.x) and np.array_equal(fields.v, v) and np.array_equal(ordered[2:],
-                                                                                             state[2:, ids])
+    assert np.array_equal(fields.x, AT.x) and np.array_equal(fields.v, v)
+    assert np.array_equal(ordered[2:], state[2:, ids])
     assert np.array_equal(fields.rho[ids], sums.around.rho[:AT.n]) and np.array_equal(fields.V, 1/fields.rho)
-    # on the lattice every particle has one density, near 1: then temperatures come back as far as that is
-    # from 1
+    # on the lattice every particle has one density, near 1, and temperatures are as wrong as that is
     still = SPAM.fields(SPAM.state(SQUARE.x, 1.0, v, T))
     assert np.ptp(still.rho) < 1e-14 and abs(still.rho[0] - 1) < 0.02
     np.testing.assert_allclose(still.T, T, atol=2*0.02)
@@ -124,7 +124,7 @@ def test_dissipative_particles_have_the_temperature_of_their_velocities(method):
 
 
 def kinds():
-    """Every class of the package whose states have names, but for what methods inherit."""
+    """Every class of the package whose states have names, apart from base classes."""
     found = {getattr(importlib.import_module(module.name), name)
              for module in pkgutil.walk_packages(particles.__path__, "particles.")
              for name, kind in inspect.getmembers(importlib.import_module(module.name), inspect.isclass)
@@ -141,12 +141,35 @@ def test_no_method_is_left_out():
 RUN = [name for name, method in {**FIXED, **MOVING}.items() if hasattr(method, "start")]
 
 
+def start_of(name):
+    """A method and a state; points that move lie between where plates would be."""
+    method = {**FIXED, **MOVING}[name]
+    places = () if name in FIXED else (AT.x*[1, 0.9],)
+    return method, method.state(*places, *given(SQUARE.n))
+
+
 @pytest.mark.parametrize("name", RUN)
 def test_an_interrupted_run_goes_on_bitwise_with_any_number_of_threads(name, tmp_path):
-    method = {**FIXED, **MOVING}[name]
-    places = () if name in FIXED else (AT.x*[1, 0.9],)      # between plates
-    state = method.state(*places, *given(SQUARE.n))
+    method, state = start_of(name)
     goes_on_bitwise(method, state, 0.5*limit_of(method, state), tmp_path)
+
+
+@pytest.mark.parametrize("name", RUN)
+def test_a_start_that_is_no_fluid_is_refused_with_its_point(name):
+    method, start = start_of(name)
+
+    def refused(row, value, words):
+        state = start.copy()
+        state[row, 17] = value
+        with pytest.raises(ValueError, match=words):
+            run(method, state, Plan(dt=1e-3, steps=1))
+    for row, what in enumerate(method.names[:len(start)]):
+        refused(row, np.nan, f"not finite: {what} = nan of particle 17")
+        if what in ("rho", "m", "V", "eps", "E"):
+            # the entropy-stable flux on points that stay names no point
+            refused(row, -50.0, "no stable step" if "stable" in name.split() else r"(\(item|point) 17\b")
+    if name in MOVING:
+        refused(slice(2), start[:2, 18], r"point 1[78] and point 1[78] overlap at .* move one of them")
 
 
 class Box:
@@ -166,7 +189,7 @@ def test_nodes_of_a_grid_fill_its_box_and_have_its_kinetic_energy(scene):
     assert of_fields(at) == pytest.approx(kinetic_energy(as_block(fields)), rel=1e-13)
 
 
-def test_nodes_of_a_torus_are_told_once_each():
+def test_a_torus_has_each_of_its_nodes_once():
     at = at_nodes(placed(Box, 8, lambda x, y: (1 + 0*x, 0.1*y, 0*x, 1 + 0*x)))
-    assert len(at.x) == 64 and np.array_equal(at.V, np.ones(64)) and np.array_equal(at.v[:, 0],
-                                                                                    0.1*at.x[:, 1])
+    assert len(at.x) == 64 and np.array_equal(at.V, np.ones(64))
+    assert np.array_equal(at.v[:, 0], 0.1*at.x[:, 1])

@@ -1,10 +1,10 @@
-"""Points that move with their triangulation: its geometry, flips, laws of conservation, and its slow twin."""
+"""Points that move with their triangulation: flips, the slow twin, conservation, threads, refusals."""
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
 from plain_moving_delaunay import Plain
-from scenes import between_circles, turning
 
 from continuum.domain import Domain
 from continuum.fluid import ConstEta, ConstNu, IdealGas
@@ -12,7 +12,7 @@ from continuum.scene import RayleighBenard
 from continuum.sides import Periodic, Plate, Sliding
 from particles.integral import moving_delaunay
 from particles.integral import rings as rings_module
-from particles.integral.bodies import held, together, with_disc
+from particles.integral.bodies import held, with_disc
 from particles.integral.flips import flips
 from particles.integral.march import REAL
 from particles.integral.moving_delaunay import MovingDelaunay
@@ -28,6 +28,7 @@ from studies.build.setting import shifted
 
 TORUS, PLATES, BOX = (False, False), (False, True), (True, True)
 SIZE = (12.0, 10.0)
+ROOM = np.zeros((4000, 2), np.int64)        # for edges to look at
 
 
 def corners(x, size, closed):
@@ -39,43 +40,35 @@ def corners(x, size, closed):
     return corner
 
 
-def of_points(size, closed, jitter, seed):
-    """Points (n, 2) between rows on sides."""
-    return between_sides(size, closed, shifted, jitter, seed)
-
-
-def neighbours(made):
-    """Of each point."""
-    return [set(row[row >= 0]) for row in table_of(made)]
-
-
 def edges_of(made, x):
-    """(V, crossed), with S and k in the rings."""
+    """Volumes, and points with an edge to be flipped; S and k go into the rings."""
     n = len(x)
     V, crossed = np.zeros(n), np.zeros(n, bool)
     geometry(0, n, x.T.copy(), made, V, np.zeros((n, 2)), np.zeros(n), crossed)
     return V, crossed
 
 
-def room(n):
-    """For points whose rings change, and edges to look at."""
-    return np.zeros(n, bool), np.zeros((4000, 2), np.int64)
+def shaken(closed):
+    """Places moved by up to 0.35 at random, and the triangulation that they had before."""
+    x, _ = between_sides(SIZE, closed, shifted, 0.1, 3)
+    made = rings(x, SIZE, closed)
+    return x + 0.35*np.random.default_rng(0).uniform(-1, 1, x.shape)*~made.rim[:, None], made
 
 
 @pytest.mark.parametrize("closed", [TORUS, PLATES, BOX])
 def test_flips_end_at_delaunays_triangulation_and_keep_linear_fields(closed):
-    """What points have of a linear field, per volume, they have after flips, on the same places."""
-    x, _ = of_points(SIZE, closed, 0.1, seed=3)
-    made, n = rings(x, SIZE, closed), len(x)
-    x = x + 0.35*np.random.default_rng(0).uniform(-1, 1, x.shape)*~made.rim[:, None]
+    """Flips give each point the value that a linear field has there."""
+    x, made = shaken(closed)
     V, crossed = edges_of(made, x)
-    slope = np.multiply([0.1, 0.2], closed)       # where a field may be linear
-    fields = np.stack([np.full(n, 2.0), np.zeros(n), 3 + x@slope, np.ones(n), np.full(n, 5.0)])
+    ones, slope = np.ones(len(x)), np.multiply([0.1, 0.2], closed)       # where a field may be linear
+    fields = np.stack([2*ones, 0*ones, 3 + x@slope, ones, 5*ones])
     state = np.concatenate([x.T, 0*x.T, fields*V])
     before = state[4:].sum(axis=1)
-    count, full = flips(x.T.copy(), state, IdealGas(), made, crossed, *room(n))
+    count, full = flips(x.T.copy(), state, IdealGas(), made, crossed, np.zeros(len(x), bool), ROOM)
     assert count > 10 and full == -1
-    assert neighbours(made) == neighbours(rings(x, SIZE, closed))
+    after, anew = (np.sort(table_of(one), axis=1) for one in (made, rings(x, SIZE, closed)))
+    for one, other in zip(after, anew, strict=True):
+        assert np.array_equal(one[one >= 0], other[other >= 0])
     V, crossed = edges_of(made, x)
     assert not crossed.any()
     assert np.allclose(state[7], V, rtol=0, atol=1e-13)
@@ -84,16 +77,13 @@ def test_flips_end_at_delaunays_triangulation_and_keep_linear_fields(closed):
 
 
 def test_flips_leave_what_is_positive_positive_where_densities_jump():
-    x, _ = of_points(SIZE, TORUS, 0.1, seed=3)
-    made, n, draw = rings(x, SIZE, TORUS), len(x), np.random.default_rng(0)
-    x = x + 0.35*draw.uniform(-1, 1, x.shape)
+    x, made = shaken(TORUS)
     V, crossed = edges_of(made, x)
-    rho, T = 10**draw.uniform(-2, 2, (2, n))
-    state = np.concatenate([x.T, 0*x.T, np.stack([0*rho, 0*rho, rho, np.ones(n), rho*T])*V])
+    rho, T = 10**np.random.default_rng(1).uniform(-2, 2, (2, len(x)))
+    state = np.concatenate([x.T, 0*x.T, np.stack([0*rho, 0*rho, rho, np.ones(len(x)), rho*T])*V])
     before = state[4:].sum(axis=1)
-    flips(x.T.copy(), state, IdealGas(), made, crossed, *room(n))
-    least = rho.min(), T.min()
-    assert (state[6]/state[7]).min() > least[0]/4 and (state[8]/state[6]).min() > least[1]/4
+    flips(x.T.copy(), state, IdealGas(), made, crossed, np.zeros(len(x), bool), ROOM)
+    assert (state[6]/state[7]).min() > rho.min()/4 and (state[8]/state[6]).min() > T.min()/4
     assert np.allclose(state[4:].sum(axis=1), before, rtol=1e-13)
 
 
@@ -102,111 +92,78 @@ HEATED = Domain(L=8.0, eta=0.1, k=0.1, g=1e-3, left=Periodic(), right=Periodic()
 SCENES_OF_ALL_KINDS = {
     "torus": SCENES["taylor-green"](rows=8), "plates": RayleighBenard(ra=1e4, L=8.0, transport=ConstNu),
     "four sides": SCENES["cavity"](rows=10), "heat that is given, a plate that slides": HEATED}
-#: of the step that is taken: flips come one by one, or edges are so stiff that they exchange in parts
-TWINS = [*((scene, 0.5) for scene in SCENES_OF_ALL_KINDS.values()), (RayleighBenard(ra=100.0, L=8.0), 2.5)]
 
 
-@pytest.mark.parametrize("scene, of_step", TWINS, ids=[*SCENES_OF_ALL_KINDS, "in parts"])
-def test_its_plain_twin_takes_the_same_steps(scene, of_step):
-    """To the third flip; later on flips of neighbouring edges come in another order, with other remains.
-    Points start in disorder, since four on a circle flip at once, in any order."""
+def in_disorder(scene, of_step):
+    """A method, its triangles, state and step. Four points on a circle would flip at once, in any order."""
     method, state, dt = Carriage("disordered", size=0.25, of_limit=0.9*of_step).ready(scene)
-    plain, twin = Plain(method, corners(method.x, method.rings.size, method.rings.per == 0)), state.copy()
-    sums = method.start(state.shape[1], Threads(1))
+    return method, corners(method.x, method.rings.size, method.rings.per == 0), state, dt
+
+
+def past_body():
+    """The same of a stream past a disc that turns, whose inside is left out."""
+    size, radius = (14.0, 12.0), 2.6
+    x, edge = with_disc(shifted(*size, 0.25, 1), radius)
+    rim = held(edge, T=1.1)._replace(v=0.05*np.stack([-x[edge, 1], x[edge, 0]], axis=1))
+    method = MovingDelaunay(x=x, rings=rings(x, size, TORUS, edge), held=rim, eos=IdealGas(),
+                            law=ConstEta(0.3, 0.3))
+    state, corner = method.state(1.0, np.tile([0.3, 0.0], (len(x), 1)), 1.0), corners(x, size, TORUS)
+    return method, corner[outside(corner, edge)], state, 0.5*limit_of(method, state)
+
+
+#: steps after which flips come one by one, and one so long that stiff edges exchange in parts
+TWINS = {name: (partial(in_disorder, scene, 0.5), False) for name, scene in SCENES_OF_ALL_KINDS.items()}
+TWINS |= {"stiff": (partial(in_disorder, RayleighBenard(ra=100.0, L=8.0), 2.5), True),
+          "body": (past_body, False)}
+
+
+@pytest.mark.parametrize(("made", "parts"), TWINS.values(), ids=TWINS)
+def test_its_plain_twin_takes_the_same_steps(made, parts):
+    """To the third flip: later ones of neighbouring edges come in another order, which changes fields."""
+    method, corner, state, dt = made()
+    plain, twin, sums = Plain(method, corner), state.copy(), method.start(state.shape[1], Threads(1))
     while plain.flips < 3:
         plain.step(twin, dt)
         sums.march(state, dt, 1)
     assert plain.flips == sums.flips
     sums.look_at(state)
-    assert (dt*sums.bench.stiffness.max() > REAL) == (of_step > 1)
+    assert (dt*sums.bench.stiffness.max() > REAL) == parts
     assert np.allclose(state, twin, rtol=0, atol=1e-13)
 
 
-@pytest.mark.parametrize("scene, kept", [
-    (SCENES["taylor-green"](rows=10), slice(0, 5)), (Domain(L=10.0, eta=0.01, k=0.01), slice(2, 5))],
-    ids=["torus", "box"])
-def test_mass_momentum_energy_and_volume_are_kept_to_round_off(scene, kept):
-    """Over 10 000 steps; sides take momentum."""
+def stirred(scene):
+    """A method, a vortex, and the step."""
     method, _, dt = ready(scene, "moving-delaunay")
     x, y = 2*np.pi*method.x.T/10
     v = 0.2*np.stack([-np.cos(x)*np.sin(y), np.sin(x)*np.cos(y)], axis=1)
-    start = method.state(1.0, v, 1.0)
+    return method, method.state(1.0, v, 1.0), dt
+
+
+def insulated():
+    """Method, state and step of a stream past a disc at rest that takes no heat."""
+    method, _, state, dt = past_body()
+    return replace(method, held=held(method.held.which)), state, dt
+
+
+@pytest.mark.parametrize(("made", "steps", "kept"), [
+    (partial(stirred, SCENES["taylor-green"](rows=10)), 10_000, [0, 1, 2, 3, 4]),
+    (partial(stirred, Domain(L=10.0, eta=0.01, k=0.01)), 10_000, [2, 3, 4]), (insulated, 2000, [2, 3, 4])],
+    ids=["torus", "box", "body"])
+def test_mass_momentum_energy_and_volume_are_kept_to_round_off(made, steps, kept):
+    """Sides and bodies take momentum, and no heat where they are insulated; at rest they do no work."""
+    method, start, dt = made()
     sums, end = method.start(start.shape[1], Threads(1)), start.copy()
-    sums.march(end, dt, 10_000)
+    sums.march(end, dt, steps)
     assert sums.flips > 100
     assert np.allclose(end[4:].sum(axis=1)[kept], start[4:].sum(axis=1)[kept], rtol=1e-12, atol=1e-11)
     V, _ = edges_of(sums.rings, end[:2].T)
     assert np.allclose(end[7], V, rtol=0, atol=1e-12)
 
 
-def test_a_stream_flows_past_a_body_whose_inside_is_left_out():
-    """As its twin steps, to the third flip; in 2000 steps mass, energy and volume stay to round-off: the body
-    takes no heat and does no work."""
-    size, radius = (14.0, 12.0), 2.6
-    x, edge = with_disc(shifted(*size, 0.25, 1), radius)
-    method = MovingDelaunay(x=x, rings=rings(x, size, TORUS, edge), held=held(edge), eos=IdealGas(),
-                            law=ConstEta(0.3, 0.3))
-    state = method.state(1.0, np.tile([0.3, 0.0], (len(x), 1)), 1.0)
-    dt, sums, corner = 0.5*limit_of(method, state), method.start(len(x), Threads(1)), corners(x, size, TORUS)
-    plain, twin = Plain(method, corner[outside(corner, edge)]), state.copy()
-    while plain.flips < 3:
-        plain.step(twin, dt)
-        sums.march(state, dt, 1)
-    assert plain.flips == sums.flips
-    assert np.allclose(state, twin, rtol=0, atol=1e-13)
-    before = state[6:].sum(axis=1)
-    assert before[1] == pytest.approx(14*12 - len(edge)/2*radius**2*np.sin(2*np.pi/len(edge)), rel=1e-12)
-    sums.march(state, dt, 2000)
-    assert sums.flips > 100
-    assert np.allclose(state[6:].sum(axis=1), before, rtol=1e-12)
-
-
-def test_the_torque_between_circles_is_of_second_order():
-    """Points stay held on both, and what one gets the other gives; exact: A r + B/r, 4 pi eta B."""
-    eta, speed, errors = 0.5, 0.05, []
-    for rows in (24, 48):
-        inner, outer = 0.18*rows, 0.42*rows
-        points, turned, fixed = between_circles((rows, rows), inner, outer)
-        both = together(turning(points, turned, speed/inner, 1.0), turning(points, fixed, 0.0, 1.0))
-        method = MovingDelaunay(x=points.x, rings=rings(points.x, (rows, rows), TORUS), held=both,
-                                eos=IdealGas(), law=ConstEta(eta, eta))
-        state = method.state(1.0, np.zeros_like(points.x), 1.0)
-        dt, time = 0.8*limit_of(method, state), 9*(outer - inner)**2/(np.pi**2*eta)
-        sums = method.start(len(points.x), Threads(1))
-        sums.march(state, dt, round(time/dt))
-        sums.look_at(state)
-        (x, y), (Fx, Fy, _) = points.x[both.which].T, sums.received.T
-        torque = np.bincount(both.body, x*Fy - y*Fx)*(1 - (inner/outer)**2)/(4*np.pi*eta*speed*inner)
-        assert sums.flips > 0
-        assert -torque[0] == pytest.approx(torque[1], abs=0.002)     # e^-9 of the start is left
-        errors.append(abs(torque[0] + 1))
-    assert errors[1] < 0.005 and np.log2(errors[0]/errors[1]) > 1.5
-
-
-def between_plates(speed):
-    """A gas between plates that both slide."""
-    return Domain(L=8.0, eta=0.1, k=0.1, left=Periodic(), right=Periodic(), bottom=Sliding(speed, T=1.5),
-                  top=Sliding(speed, T=1.0))
-
-
-@pytest.mark.parametrize("speed", [0.7, 7.0])
-def test_a_stream_along_plates_that_slide_with_it_changes_nothing(speed):
-    """On a torus `test_streams` asks for it."""
-    vortex = SCENES["taylor-green"](rows=8)
-    (method, _, dt), (moved, _, _) = (ready(between_plates(v), "moving-delaunay") for v in (0.0, speed))
-    rho, v, T = vortex.fields(method.x)
-    rest, carried = method.state(rho, v, T), moved.state(rho, v + [speed, 0.0], T)
-    for one, state in ((method, rest), (moved, carried)):
-        one.start(state.shape[1], Threads(1)).march(state, dt, 100)
-    at_rest, in_stream = method.fields(rest), method.fields(carried)
-    assert np.allclose(in_stream.v - [speed, 0.0], at_rest.v, rtol=0, atol=1e-12)
-    assert np.allclose(in_stream.T, at_rest.T, rtol=1e-11)      # T is told from an energy that v^2 adds to
-
-
 @pytest.mark.parametrize("gradient, heating", [([[0, -1], [1, 0]], 0.0), ([[0, 1], [0, 0]], 1.0),
                                                ([[1, 0], [0, -1]], 4.0)], ids=["rotation", "shear", "strain"])
 def test_a_linear_flow_heats_as_a_fluid_does(gradient, heating):
-    """2 eta s:s a volume, in all; a rigid rotation does not heat. Points go along: nothing is carried."""
+    """2 eta s:s per volume, summed; a rigid rotation does not heat. Points move with the flow."""
     scene = Domain(L=10.0, aspect=1.2, eta=0.3, k=0.1)
     method, _, _ = ready(scene, "moving-delaunay")
     v, plain = method.x@np.array(gradient, float).T, Plain(method, corners(method.x, SIZE, BOX))
@@ -247,9 +204,9 @@ def test_a_ring_gets_room_when_it_is_full(monkeypatch):
 
 
 def test_what_is_no_triangulation_is_refused():
-    x, _ = of_points(SIZE, PLATES, 0.1, seed=1)
+    x, _ = between_sides(SIZE, PLATES, shifted, 0.1, 1)
     with pytest.raises(ValueError, match=r"6.29 spacings wide along x, where it is periodic.* needs 8"):
-        rings(of_points((6.0, 10.0), PLATES, 0.1, 1)[0], (6.0, 10.0), PLATES)
+        rings(between_sides((6.0, 10.0), PLATES, shifted, 0.1, 1)[0], (6.0, 10.0), PLATES)
     twice = x.copy()
     twice[-1] = twice[-2]
     with pytest.raises(ValueError, match=r"overlap at .*, or nearly so"):

@@ -1,12 +1,16 @@
-"""Neighbour lists hold exactly the points within reach, whatever points and threads; clear errors."""
+"""Neighbour lists hold exactly the points within reach, fields are sums over them; refusals."""
 import numpy as np
 import pytest
+from crowd import prepare
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from scipy.spatial import cKDTree
 
 from particles.neighbours import make_lists, sort_into_cells
+from particles.observe import fields_at
 from particles.threads import Threads
+from particles.weights import value_and_slope
+from tests.scenes import small
 
 
 def listed(x, y, reach, threads=1, rows=None, side=None):
@@ -79,3 +83,17 @@ def test_far_flung_particles_are_an_error(far):
     x[50] = far
     with pytest.raises(FloatingPointError, match="left the box; lower the step"):
         sort_into_cells(x, y, 1.0)
+
+
+def test_fields_are_the_sums_of_the_paper():
+    sums, state, _ = prepare(*small())
+    sums.densities(state)
+    x, y = np.array([0.3, -7.9, 4.0]), np.array([0.1, -3.9, 3.99])
+    around, seen = sums.around, fields_at(sums, state, x, y)
+    for k in range(3):
+        r = np.hypot(around.x - x[k], around.y - y[k])
+        w = np.array([value_and_slope(sums.method.weight, d)[0] for d in r])
+        rho = w.sum()
+        expected = (rho, w@around.vx/rho, w@around.vy/rho)
+        # sums of some 30 terms in another order
+        np.testing.assert_allclose([seen.rho[k], seen.vx[k], seen.vy[k]], expected, rtol=1e-13, atol=1e-15)

@@ -1,4 +1,4 @@
-"""Particles whose places are shifted: equal to slow twins, conservative, invariant, at rest on lattices."""
+"""Particles whose places are shifted: slow twins, rest, steps, refusals; other laws are in test_spam."""
 from dataclasses import replace
 
 import numpy as np
@@ -6,7 +6,7 @@ import plain
 import pytest
 from crowd import crowd, everywhere, lattice, prepare, rates
 from plain_meshless import everywhere as at_all_points
-from test_spam import BOX, COLD, COLUMNS, HOT, MASS, PERIODIC, ROWS, close, closed
+from test_spam import BOX, COLD, COLUMNS, HOT, MASS, PERIODIC, ROWS, close, closed, state_of
 
 from continuum.fluid import (
     ConstEta,
@@ -18,11 +18,8 @@ from continuum.fluid import (
     sound_speed,
     viscosity,
 )
-from continuum.scene import RayleighBenard
 from particles.limits import by_trial, largest_step, step_limit
 from particles.observe import fields_at, particle_kinetic
-from particles.plan import Plan
-from particles.run import run
 from particles.smooth.riemann import LowDissipationSums
 from particles.smooth.shifting import DeltaPlus
 from particles.smooth.spam import LessStatic, Spam
@@ -30,12 +27,12 @@ from particles.smooth.transport import TransportVelocity
 from particles.walls.fixed import fixed_plates
 from particles.walls.mirror import Copied, Odd, plates
 from particles.weights import Lucy, WendlandC2
-from studies.build import ready
 
 WALLS = {"closed": closed(Odd(), Copied()), "periodic": everywhere(BOX),
          "layer": PERIODIC + plates(BOX[1], HOT, COLD, Odd(), Copied())}
 EOS = {"closed": VanDerWaals(), "periodic": IdealGas(), "layer": IdealGas()}
 P0 = LessStatic(0.0, 1.2, 0.0)
+KINDS = pytest.mark.parametrize("kind", [DeltaPlus, TransportVelocity])
 
 
 def spam(kind, name="periodic", static=P0, **more):
@@ -43,15 +40,6 @@ def spam(kind, name="periodic", static=P0, **more):
     known = {"weight": weight.of(h=3.0), "eos": EOS[name], "law": ConstEta(0.4, 0.3), "box": BOX, "m": MASS,
              "walls": WALLS[name], "static": static if kind is TransportVelocity else LessStatic(0.0, 0.0)}
     return Spam(**known | {"transport": kind} | more)
-
-
-def state_of(method, jitter=0.25):
-    """Densities and masses scatter, too."""
-    state, rng = crowd(BOX, COLUMNS, ROWS, method.eos, jitter), np.random.default_rng(3)
-    rho, m = rng.uniform(0.9, 1.1, (2, state.shape[1]))
-    full = method.transport.complete(state, rho, MASS)
-    full[6:] *= m
-    return full
 
 
 def twin(method, state):
@@ -99,7 +87,7 @@ def shifted(method, p, state, w, g, d, F, dv, c):
 
 
 def transported(method, p, state, w, g, d, F, dv, c):
-    """Adami, Hu & Adams 2013: half of a step of 0.25 a/c leads [Eq. 15]."""
+    """Adami, Hu & Adams 2013: shifts lead by half of a step of 0.25 a/c [Eq. 15]."""
     n, V, m, rho = len(w), method.m/p.rho, method.m, p.rho
     both = V[:n, None]**2 + V**2
     s = -method.static.P0/m*np.einsum("ij,ija->ia", both, g)*(0.25/2*np.sqrt(V)/c)[:n, None]
@@ -111,7 +99,7 @@ def transported(method, p, state, w, g, d, F, dv, c):
             lambda q: np.zeros((n, len(p.x))))
 
 
-@pytest.mark.parametrize("kind", [DeltaPlus, TransportVelocity])
+@KINDS
 @pytest.mark.parametrize("walls", WALLS)
 def test_equals_the_slow_twin(walls, kind):
     method = spam(kind, walls)
@@ -124,39 +112,8 @@ def test_equals_the_slow_twin(walls, kind):
     assert abs(out[:2] - state[2:4]).max() > 1e-3
 
 
-@pytest.mark.parametrize("kind", [DeltaPlus, TransportVelocity])
-def test_mass_momentum_and_energy_are_exchanged_only(kind):
-    method = spam(kind)
-    state = state_of(method)
-    _, _, ax, ay, heat, *more = rates(method, state)
-    m, gain = (state[6], more[1]) if more else (MASS, 0*heat)
-    v2, power = (state[2]**2 + state[3]**2)/2, state[2]*ax + state[3]*ay + heat
-    rows = (m*ax + state[2]*gain, m*ay + state[3]*gain, m*power + (state[4] + v2)*gain, *more[1:])
-    for rate in rows:
-        assert abs(rate.sum()) < 1e-14*30*abs(rate).sum() and abs(rate).max() > 1e-3
-
-
-@pytest.mark.parametrize("name", ["spam-delta-plus", "spam-transport-velocity"])
-def test_rows_do_not_depend_on_the_number_of_threads(name):
-    method, start, dt = ready(RayleighBenard(ra=1e4, L=10.0), name)
-    start[2:4] += np.random.default_rng(1).normal(0, 0.05, start[2:4].shape)
-    one, two = (run(method, start, Plan(dt=dt, steps=20, threads=threads)).state for threads in (1, 2))
-    assert start.shape[1] >= 128 and np.array_equal(one, two)       # fewer particles are not shared
-
-
-@pytest.mark.parametrize(("kind", "jitter", "broken"), [
-    (DeltaPlus, 0.25, False), (TransportVelocity, 0.0, False), (TransportVelocity, 0.25, True)])
-def test_galilean_invariance_but_for_a_transport_velocity_off_lattices(kind, jitter, broken):
-    method = spam(kind)
-    state = state_of(method, jitter)
-    moving = state.copy()
-    moving[2:4] += np.array([[7.0], [-3.0]])
-    apart = close(rates(method, moving)[2:], rates(method, state)[2:])
-    assert (apart > 1e-2) if broken else (apart < 1e-13)
-
-
 @pytest.mark.parametrize("static", [P0, LessStatic(1.0, 1.2, 0.0)])
-@pytest.mark.parametrize("kind", [DeltaPlus, TransportVelocity])
+@KINDS
 def test_a_lattice_at_rest_stays_at_rest(kind, static):
     method = spam(kind, static=static)
     state = np.array([*lattice(BOX, COLUMNS, ROWS), *np.zeros((2, COLUMNS*ROWS)), np.ones(COLUMNS*ROWS)])
@@ -173,9 +130,9 @@ def test_densities_are_not_mixed_where_they_are_linear_and_their_mass_in_volumes
     assert (rates(wide, linear)[:2] == 0).all()
 
 
-@pytest.mark.parametrize(("kind", "static"), [(DeltaPlus, P0), (TransportVelocity, P0)])
-def test_steps_of_waves_are_stable_for_what_is_shifted(kind, static):
-    method = spam(kind, static=static)
+@KINDS
+def test_steps_of_waves_are_stable_for_what_is_shifted(kind):
+    method = spam(kind)
     state = kind.complete(crowd(BOX, COLUMNS, ROWS, method.eos, 0.05), 1.0, MASS)
     assert 0.3*step_limit(method, state[4]) < largest_step(by_trial(method, state))
 

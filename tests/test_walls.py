@@ -1,4 +1,4 @@
-"""What walls make of particles: images, their motion, statics, reflections, fixed rows."""
+"""What walls make of particles: images, statics, reflections, fixed rows, heat."""
 from typing import NamedTuple
 
 import numpy as np
@@ -7,6 +7,7 @@ import pytest
 from crowd import crowd, lattice, prepare, rates
 
 from continuum.fluid import ConstEta, IdealGas
+from particles.observe import PlateHeat
 from particles.run import Plan, run
 from particles.smooth.spam import LessStatic, Spam
 from particles.smooth.sums import Direct, Nested
@@ -25,13 +26,14 @@ from particles.walls.mirror import (
 )
 from particles.walls.periodic import periodic
 from particles.weights import Lucy
+from studies.build.spam import VARIANTS
+from tests.scenes import small
 
 BOX = (10.0, 10.0)
 HOT, COLD, SLOPE = 1.2, 0.8, -0.04
 G = -SLOPE  # gravity of the ideal gas that balances the profile at constant density
 ETA = ConstEta(0.4, 0.3)
-RULES = [(rule, pressure) for rule in (AtWall(), Odd()) for pressure in (Copied(), Own())]
-rules = pytest.mark.parametrize("rule, pressure", RULES, ids=lambda r: type(r).__name__)
+PERIODIC = periodic(BOX[0])
 
 
 def spam(walls, **other) -> Spam:
@@ -51,12 +53,6 @@ def wall_T(y):
 # --- statics -----------------------------------------------------------------------------------------------
 
 
-def still(method) -> np.ndarray:
-    """A lattice at rest with the conduction profile."""
-    r = lattice(BOX, 10, 10)
-    return np.array([*r, *np.zeros((2, 100)), wall_T(r[1])])
-
-
 def lattice_moments(weight):
     """Density of the unit lattice and -(m/rho) sum y dw/dy, 1 in the continuum."""
     x, y = (q.ravel() for q in np.meshgrid(np.arange(-3, 4), np.arange(-3, 4)))
@@ -65,15 +61,24 @@ def lattice_moments(weight):
     return w.sum(), -np.sum(y**2*slope/np.maximum(r, 1))/w.sum()
 
 
+RHO, MOMENT = lattice_moments(Lucy.of(h=3.0))
+
+
+def layer(fraction, rule=Odd(), pressure=Own(), **other):  # noqa: B008
+    """Particles less a part of their static pressure, on a lattice at rest with the conduction profile."""
+    walls = PERIODIC + plates(BOX[1], HOT, COLD, rule, pressure)
+    r = lattice(BOX, 10, 10)
+    return (spam(walls, static=LessStatic(fraction, RHO, RHO), **other),
+            np.array([*r, *np.zeros((2, 100)), 1.0 + SLOPE*r[1]]))
+
+
 @pytest.mark.parametrize("transport", [Nested, Direct])
-@rules
+@pytest.mark.parametrize("pressure", [Copied(), Own()])
+@pytest.mark.parametrize("rule", [AtWall(), Odd()])
 def test_without_static_pressure_the_conduction_state_rests(rule, pressure, transport):
     # all that is left of the pressure is round-off; odd images continue the linear profile, so that nothing
     # is heated
-    rho, _ = lattice_moments(Lucy.of(h=3.0))
-    method = spam(periodic(BOX[0]) + plates(BOX[1], HOT, COLD, rule, pressure), transport=transport,
-                  static=LessStatic(1.0, rho, rho))
-    out = rates(method, still(method))
+    out = rates(*layer(1.0, rule, pressure, transport=transport))
     if isinstance(pressure, Copied) or isinstance(rule, Odd):
         assert abs(out[:4]).max() < 1e-14
     if isinstance(rule, Odd):
@@ -86,22 +91,15 @@ def test_without_static_pressure_the_conduction_state_rests(rule, pressure, tran
 def test_static_pressure_pushes_by_the_error_of_the_lattice_only(fraction):
     # the printed sum gives -dP/dy/rho times the lattice moment; at odd images with their own pressure also
     # at plates
-    rho, moment = lattice_moments(Lucy.of(h=3.0))
-    method = spam(periodic(BOX[0]) + plates(BOX[1], HOT, COLD, Odd(), Own()),
-                  static=LessStatic(fraction, rho, rho))
-    out = rates(method, still(method))
-    assert out[3] == pytest.approx((1 - fraction)*G*(moment - 1), abs=1e-14)
-    assert 1e-4 < abs(moment - 1) < 0.02
+    out = rates(*layer(fraction))
+    assert out[3] == pytest.approx((1 - fraction)*G*(MOMENT - 1), abs=1e-14)
+    assert 1e-4 < abs(MOMENT - 1) < 0.02
     assert abs(out[2]).max() < 1e-14
 
 
 def test_rest_stays_rest():
-    # t = 100, fifty sound crossings of the range: a growing mode would have been fed by round-off all the
-    # time
-    rho, _ = lattice_moments(Lucy.of(h=3.0))
-    method = spam(periodic(BOX[0]) + plates(BOX[1], HOT, COLD, Odd(), Own()),
-                  static=LessStatic(1.0, rho, rho))
-    start = still(method)
+    # t = 100 is fifty sound crossings of the range: round-off feeds a mode that grows all the time
+    method, start = layer(1.0)
     end = run(method, start, Plan(dt=0.5, steps=200)).by_id()
     assert abs(end - start).max() < 1e-10
 
@@ -110,9 +108,8 @@ def test_rest_stays_rest():
 def test_reflection_is_elastic(walls):
     state = crowd(BOX, 10, 10, jitter=3.0)
     state[:2, :4] = [[-5.5, 5.25, 0, 1], [0, 1, 5.75, -6]]
-    before, count = state.copy(), 0
-    for wall in walls:
-        count += confine(wall, state)
+    before = state.copy()
+    count = sum(confine(wall, state) for wall in walls)
     axes = sorted({getattr(wall, "axis", 1) for wall in walls})
     assert (abs(state[axes]) <= 5).all()
     assert count == sum(int((abs(before[a]) > 5).sum()) for a in axes) > 0
@@ -125,18 +122,17 @@ def test_reflection_is_elastic(walls):
     assert (state[4] == before[4]).all()
 
 
-@pytest.mark.parametrize("walls",
-                         [four(AtWall()), four(Odd(), Own()), periodic(10.0) + fixed_plates(10.0, HOT, COLD)],
-                         ids=["at wall", "odd", "fixed rows"])
+@pytest.mark.parametrize("walls", [
+    four(AtWall()), four(Odd(), Own()), PERIODIC + fixed_plates(10.0, HOT, COLD)],
+    ids=["at wall", "odd", "rows"])
 def test_nothing_leaks(walls):
-    # thrown at the walls at the speed of sound; much faster ones cool to e < 0 where they fly apart, as
-    # printed
+    # thrown at the walls at the speed of sound; much faster ones fly apart and cool to e < 0, as printed
     start = crowd(BOX, 10, 10)
     start[2:4] *= 4
     done = run(spam(walls), start, Plan(dt=0.1, steps=200))
     assert done.reflections > 20
     assert (abs(done.state[1]) <= 5).all()
-    assert (abs(done.state[0]) <= 5.01 + 3*(walls[0] == periodic(10.0)[0])).all()
+    assert (abs(done.state[0]) <= 5.01 + 3*(walls[0] == PERIODIC[0])).all()
 
 
 def test_fixed_rows_fit_a_period_that_is_no_multiple_of_their_spacing():
@@ -165,3 +161,19 @@ def test_rules_see_velocities_along_and_across_whatever_the_side(axis):
     for wall in (plate, OneSide(plate, 0.0)):
         moved = image_motion(wall, 0.5, 0.5, 0.3, 0.7, 1.0)
         assert moved == pytest.approx((0.06, -0.7, 1.0) if axis == 1 else (-0.3, 0.14, 1.0))
+
+
+@pytest.mark.parametrize("name", ["printed", "printed-fixed-rows", "walls-odd-own-pressure", "direct"])
+def test_plates_give_all_the_energy_that_the_fluid_gains(name):
+    """Particles conserve energy among themselves: what they gain, m g y included, comes through plates."""
+    method, state = small(VARIANTS[name], rows=12)
+    sums, state, _ = prepare(method, state)
+    out = np.empty_like(state)
+    sums.rates(state, out)
+    gained = state[2]*out[2] + state[3]*out[3] + out[4] + method.g*out[1]
+    sums.densities(state)
+    sums.gradients()
+    lower, upper = (PlateHeat(side, pressure=True)(sums, state)*method.box[0] for side in (-1, 1))
+    assert min(abs(lower), abs(upper)) > 1e-3*np.abs(gained).sum()
+    # 288 energies and some 300 pairs a plate, summed in another order
+    assert lower + upper == pytest.approx(gained.sum(), abs=1e-13*np.abs(gained).sum())
