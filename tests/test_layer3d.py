@@ -109,7 +109,7 @@ def test_an_even_number_of_functions_is_refused():
 @pytest.mark.parametrize(("across", "number"), [((0.0, 0.01, 0.0), 1), ((0.0, 0.5, 1.0), 0)])
 def test_sizes_that_end_in_one_pattern_have_a_limit_and_others_none(across, number):
     point = {"method": "dih", "variant": "fixed-lattice", "start": "crossed", "ra": 5e3, "ke_err": 0.0,
-             "nu": 1.5, "nu_err": 0.0, "oblique": 0.0, "converged": True}
+             "nu": 1.5, "nu_err": 0.0, "converged": True}
     runs = [point | {"resolution": n, "ke": 3 + n**-2, "across": a} for n, a in zip((12, 16, 20), across)]
     limits = list(in_space({"three_dimensions": pd.DataFrame(runs)}))
     assert [row["ke"] for row in limits] == pytest.approx([3.0]*number, abs=1e-12)

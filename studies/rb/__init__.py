@@ -30,20 +30,19 @@ SAME = ["method", "variant"]
 
 
 def own(text: str, rows: int, seeds: int) -> list[Case]:
-    """Runs in the layer of the methods that a text names. Raises NoSuchCase: It names none."""
-    scene = RayleighBenard(ra=RA, L=float(rows))
-    return [RUNS[type(variant)](scene=scene, variant=variant, seed=seed)
-            for variant, seed in product(chosen(text), range(1, seeds + 1))]
+    """Runs in the layer of the variant of this name, within its family or with it; else of all with the text
+    in their names.
 
-
-def chosen(text: str) -> list:
-    """The variant of this name, within its family or with it; if there is none all with the text in it."""
+    Raises NoSuchCase: There is none.
+    """
     known = {name: variant for name, variant in METHODS.items() if type(variant) in RUNS}
     exact = [variant for name, variant in known.items() if text in (name, variant.name)]
     some = exact or [variant for name, variant in known.items() if text.casefold() in name]
     if not some:
         raise NoSuchCase(f"no method on points has {text!r} in its name; {near(text, known)}")
-    return some
+    scene = RayleighBenard(ra=RA, L=float(rows))
+    return [RUNS[type(variant)](scene=scene, variant=variant, seed=seed)
+            for variant, seed in product(some, range(1, seeds + 1))]
 
 
 def beside(tried: Sequence[Any], here: Tables, others: Tables) -> Iterator[str]:
@@ -53,21 +52,14 @@ def beside(tried: Sequence[Any], here: Tables, others: Tables) -> Iterator[str]:
     known = means(others).merge(points, how="left", indicator="own").query("own == 'left_only'")
     limit = known.query("method == 'compressible' and variant == 'flux-form' and resolution == inf")
     right = limit.ke_field.max()
-    yield f"{title(tried)}; +- : half of the 95 % interval; %: off the limit"
+    yield f"K of the flow (smooth particles: Kg) at Ra {RA:g}, Pr 1, run now; +- : half of the 95 % interval"
     yield from lines(means(here).merge(points, how="right"), right)
     yield "beside it, from the tables, the largest K first: its kin with the nearest rows, means over seeds;"
-    yield "limit: the grid's K at infinitely many rows, which is the right one"
+    yield "limit: the grid's K at infinitely many rows, which is the right one; %: off this limit"
     kin = known[known.method.isin(points.method) & np.isfinite(known.resolution)]
     apart = (kin.resolution - points.resolution.iloc[0]).abs()
     nearest = kin.loc[apart.sort_values(kind="stable").index].drop_duplicates(SAME)
     yield from lines(pd.concat([nearest, limit]), right)
-
-
-def title(tried: Sequence[Any]) -> str:
-    """What the numbers are; of smooth particles with the range of their weight."""
-    ranges = sorted({f"{one.variant.h:g}" for one in tried if isinstance(one.variant, Variant)})
-    of = f", smoothed over a range of {', '.join(ranges)} spacings (Kg)," if ranges else ""
-    return f"K of the flow{of} at Ra {RA:g}, Pr 1, run now"
 
 
 def means(frames: Tables) -> pd.DataFrame:

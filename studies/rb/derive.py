@@ -139,27 +139,23 @@ def step_change(changes: pd.DataFrame, row: Row) -> pd.Series:
 
 
 def in_space(tables: Tables) -> Iterator[Row]:
-    """Limits of three sizes or more in one pattern: of a lattice over 1/rows^2; of the spectral gas the
-    finest run, its error what the last step of sizes changed.
+    """Limits of three sizes or more in one pattern: of a lattice over 1/rows^2, of the spectral gas the
+    finest run.
     """
     by = "method variant start ra".split()
     runs = finite(tables["three_dimensions"]) if "three_dimensions" in tables else pd.DataFrame(columns=by)
-    for key, group in runs.groupby(by):
-        group = group.sort_values("resolution")
+    for key, group in runs.sort_values("resolution").groupby(by):
         if len(group) < 3 or np.ptp(group.across) > SAME_PATTERN:
             continue
-        row: Row = dict(zip(by, key))
-        limits = {name: space_limit(row["method"], group, name) for name in ("ke", "nu")}
-        yield {**group.iloc[-1][["across", "oblique", "converged"]], **row, **with_errors(**limits),
-               "resolution": np.inf, "particles": 0}
+        limit = grid_limit if "dih" in key else finest
+        yield {**dict(zip(by, key)), **with_errors(ke=limit(group, "ke"), nu=limit(group, "nu")),
+               **group.iloc[-1][["across", "converged"]], "resolution": np.inf, "particles": 0}
 
 
-def space_limit(method: str, group: pd.DataFrame, name: str) -> Measured:
-    """Of one number; its error has a part of the values' own."""
+def finest(group: pd.DataFrame, name: str) -> Measured:
+    """The value of the finest run; its error is what the last step of sizes changed, and the values' own."""
     *_, before, value = group[name]
-    limit = (fits.grid_limit(group.resolution, group[name]) if method == "dih"
-             else Measured(value, abs(value - before)))
-    return limit + Measured(0.0, 2*group[f"{name}_err"].max())
+    return Measured(value, abs(value - before)) + Measured(0.0, 2*group[f"{name}_err"].max())
 
 
 def errors(runs: pd.DataFrame, means: pd.DataFrame, tables: Tables) -> pd.DataFrame:
@@ -175,13 +171,9 @@ def errors(runs: pd.DataFrame, means: pd.DataFrame, tables: Tables) -> pd.DataFr
     rows = rows.merge(limits, on=SCENE, suffixes=("", "_limit"))
     rows = rows.query("method == 'spam' or rolls == rolls_limit")
     rows = rows.merge(spent(runs), on=POINT)
-    rows = rows.assign(left=1.0)
-    field = with_smoothing(rows, tables)
-    return pd.concat([
-        compared(rows, "Nu", "nu", "nu"),
-        compared(rows, "Kp", "ke", "ke"),
-        compared(field, "Kg", "ke_field", "ke"),
-    ])
+    whole, field = rows.assign(left=1.0), with_smoothing(rows, tables)
+    return pd.concat([compared(whole, "Nu", "nu", "nu"), compared(whole, "Kp", "ke", "ke"),
+                      compared(field, "Kg", "ke_field", "ke")])
 
 
 def compared(rows: pd.DataFrame, energy: str, column: str, limit: str) -> pd.DataFrame:
@@ -196,7 +188,7 @@ def compared(rows: pd.DataFrame, energy: str, column: str, limit: str) -> pd.Dat
 
 def with_smoothing(rows: pd.DataFrame, tables: Tables) -> pd.DataFrame:
     """Rows of particles with what their weight leaves of the K of the grid's field."""
-    spam = rows.query("method == 'spam'").drop(columns="left")
+    spam = rows.query("method == 'spam'")
     if "smoothed" not in tables:
         return spam[:0].assign(left=1.0)
     seen = tables["smoothed"]

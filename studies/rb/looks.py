@@ -48,11 +48,6 @@ def reference(tables: Tables, **scene: Any) -> pd.DataFrame:
     return rows(tables, "means", **GRID, **scene, resolution=np.inf).sort_values("ra")
 
 
-def seen(tables: Tables, **scene: Any) -> pd.DataFrame:
-    """The grid's field, smoothed by the printed weight on so many `rows`."""
-    return rows(tables, "smoothed", **GRID, **scene, weight="Lucy", h=3).sort_values(["rows", "ra"])
-
-
 def particles(tables: Tables, **scene: Any) -> pd.DataFrame:
     """The printed scheme, means over seeds; `steady` says that every seed has settled."""
     means = rows(tables, "means", **(SPAM | scene)).sort_values(["resolution", "ra"])
@@ -82,12 +77,6 @@ def diverged(tables: Tables, **scene: Any) -> pd.DataFrame:
 def finest(frame: pd.DataFrame) -> pd.DataFrame:
     """The rows of the highest resolution."""
     return frame[frame.resolution == frame.resolution.max()]
-
-
-def nearest(frame: pd.DataFrame, ra: float = 1e4) -> pd.DataFrame:
-    """The rows of the Ra that is nearest to the one wanted (of two, the lower)."""
-    ras = np.sort(frame.ra.unique().astype(float))
-    return frame[frame.ra == ras[np.argmin(np.abs(ras - ra))]] if len(ras) else frame
 
 
 def cross_out(axes: Axes, x: pd.Series, y: pd.Series, steady: pd.Series) -> None:

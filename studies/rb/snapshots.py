@@ -1,4 +1,4 @@
-"""What particles and mean fields at the end of runs tell: rows of `snapshots` and `field_errors`."""
+"""Rows of `snapshots` and `field_errors`, from particles and mean fields at the end of runs."""
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from math import hypot, inf, nan, sqrt

@@ -72,11 +72,11 @@ ARITHMETIC = Table.of("arithmetic", "quantity", "value err",
                             "particles.")
 
 SPACE = Table.of("three_dimensions", "method variant start ra resolution",
-                 "particles ke ke_err nu nu_err across oblique converged mass_drift dt t_end",
+                 "particles ke ke_err nu nu_err across converged mass_drift dt t_end",
                  about="A run in a box of 2:2:1; that of points from rolls is a slice.",
-                 means={"start": ("rolls; crossed: others across, half as strong; squares: as strong", ""),
-                        "across": ("weaker over stronger of the longest waves of vy along x and along z", ""),
-                        "oblique": ("wave along a diagonal over the stronger of these", "")})
+                 means={
+                     "start": ("rolls; crossed: others across, half as strong; squares: as strong", ""),
+                     "across": ("weaker over stronger of the longest waves of vy along x and along z", "")})
 
 ALL = (KINETIC, MAKERS, MEANS, HISTORY, FIELDS, PARTICLES, WALLS, SMOOTHED, ERRORS, SNAPSHOTS,
        FIELD_ERRORS, ARITHMETIC, SPACE)

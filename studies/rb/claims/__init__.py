@@ -1,15 +1,13 @@
-"""Every number and statement of KHP95 on convection, and RR98's equations there, judged by the tables of
-`rb`.
+"""Every statement of KHP95 on convection, and RR98's equations there, judged by the tables of `rb`.
 
-One module a theme, each with its CLAIMS. Here are the statements that neither print nor runs decide. The
-study `onset` judges claims on critical Rayleigh numbers.
+Each module is a theme. Here are statements that nothing decides. Critical Rayleigh numbers are in `onset`.
 """
 from dataclasses import replace
 from typing import Any
 
 from studies.kit.ask import bench, largest
 from studies.kit.claim import Claim
-from studies.rb.claims import arithmetic, energies, fields, freezing, grid, points, space, today
+from studies.rb.claims import arithmetic, beyond, energies, fields, freezing, grid, points
 from studies.rb.tables import particles
 
 
@@ -55,5 +53,5 @@ def looked(claim: Claim) -> Claim:
     return replace(claim, after=claim.after or "; ".join(seen))
 
 
-THEMES = (arithmetic, grid, energies, fields, freezing, points, space, today)
+THEMES = (arithmetic, grid, energies, fields, freezing, points, beyond)
 RB_CLAIMS = (*(looked(claim) for theme in THEMES for claim in theme.CLAIMS), *OPEN)

@@ -47,7 +47,6 @@ EXACT = (     # name, place, printed, the number, its value, statement
 )
 
 
-
 def exact() -> Iterator[Claim]:
     """Numbers that follow from the printed formulas and digits without rounding."""
     for name, place, printed, number, value, statement in EXACT:

@@ -7,7 +7,7 @@ judged is the start that leaves them more flow.
 """
 from contextlib import suppress
 from functools import partial
-from math import inf, pi
+from math import inf
 from typing import Any
 
 import numpy as np
@@ -30,14 +30,14 @@ from studies.rb.claims.questions import (
     rolls,
     said,
 )
+from studies.rb.runs.few_particles import LUCY
 from studies.rb.tables import Point, grid, particles
 
 DENSE: dict[str, Any] = {"eos": "dense"}
 #: variant -> its pressure, that of the ideal gas at density and temperature 1 being 1
 PRESSURES = {"more-static-400": 5.0, "more-static-100": 2.0, "printed": 1.0, "less-static-50": 0.5,
              "less-static-90": 0.1}
-#: w(0.9) - w(1) of Lucy's weight 5/(9 pi) (1 + r)(1 - r/3)^3
-MELTING = 5/(9*pi)*((1 + 0.9)*(1 - 0.3)**3 - 2*(1 - 1/3)**3)
+MELTING = LUCY(0.9) - LUCY(1.0)
 
 
 def flows(ra: float, height: int = 16, variant: str = "printed", **where) -> Value:
@@ -150,8 +150,6 @@ GOOD = partial(Claim, printed="good description", at_least=0.5,
                because=f'"a good description" is half of the energy at least, {ALIKE}')
 MELTS = partial(Claim, source="KHP95 Sec. IV", printed="mv^2 > 2Pn^-2[w(0.9)-w(1)]",
                 because="the printed inequality")
-
-
 CLAIMS = (
     *(FREEZES(id=f"khp95-freeze-{weight.lower()}", printed=printed,
               value=flows(3000, variant=variant, **DENSE),

@@ -1,4 +1,4 @@
-"""Questions of this study: energies of flows, refused where two differ; curves over time and Ra^-1/2."""
+"""Questions to tables of this study: energies, refused where flows differ; curves over time, Ra^-1/2."""
 from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
@@ -33,17 +33,17 @@ def said(name: str, place: str, printed: str, value: Value, statement: str, beca
                  statement=statement, because=because, **more)
 
 
-def guarded(value: Value, check: Callable[[Tables], object]) -> Value:
-    """A question that is put only to tables that a check does not refuse."""
+def guarded(value: Value, check: Callable[..., object], *about: Any, **more: Any) -> Value:
+    """A question that is put only to tables that check(tables, *about, **more) does not refuse."""
     def answer(tables: Tables) -> Measured:
-        check(tables)
+        check(tables, *about, **more)
         return value(tables)
     return replace(value, answer=answer)
 
 
 def mean(point: Point, column: str = "ke") -> Value:
     """A column of `means`, refused where runs diverged or seeds ended in different flows."""
-    return guarded(one("means", column, **point), lambda tables: one_flow(tables, point))
+    return guarded(one("means", column, **point), one_flow, point)
 
 
 def limit(ra: float, column: str = "ke", **where) -> Value:
@@ -67,14 +67,14 @@ def against_alike(point: Point) -> Value:
     return against_grid(point, unit=alike(point))
 
 
-def over_runs(point: Point, energy: str = "ke_field") -> Value:
-    """Mean of the runs of a point that have its rolls; its error is statistics alone, not of the step."""
-    asked = one("kinetic_energy", energy, **point)
+def over_runs(point: Point) -> Value:
+    """Mean of Kg of the runs of a point that have its rolls; its error is chance, without the step."""
+    asked = one("kinetic_energy", "ke_field", **point)
 
     def answer(tables: Tables) -> Measured:
         flow = one_flow(tables, point)
         runs = rows(tables, "kinetic_energy", "ke == ke", rolls=flow.rolls, **point)
-        return stats.combine(list(zip(runs[energy], runs[f"{energy}_err"])))
+        return stats.combine(list(zip(runs.ke_field, runs.ke_field_err)))
     return Value(answer, str(asked).replace("one", "mean over runs of one flow", 1), asked.asks)
 
 
@@ -86,12 +86,10 @@ def diverged(tables: Tables, point: Point) -> Array:
         return np.zeros(1, bool)
 
 
-def refuse_diverged(point: Point) -> Callable[[Tables], None]:
-    """A check that refuses a point of which any run diverged."""
-    def check(tables: Tables) -> None:
-        if diverged(tables, point).any():
-            raise CannotTell(f"runs of {point['variant']} with {point['resolution']:g} rows diverged: no K")
-    return check
+def refuse_diverged(tables: Tables, point: Point) -> None:
+    """Refuse a point of which any run diverged."""
+    if diverged(tables, point).any():
+        raise CannotTell(f"runs of {point['variant']} with {point['resolution']:g} rows diverged: no K")
 
 
 def one_flow(tables: Tables, point: Point) -> pd.Series:
@@ -107,16 +105,16 @@ def one_flow(tables: Tables, point: Point) -> pd.Series:
 
 
 def same_flow(value: Value, point: Point, other: Point) -> Value:
-    """A question that is refused where two points have different numbers of rolls.
+    """A question that is put only where two points have the same number of rolls, or one of them has none."""
+    return guarded(value, refuse_other_flow, point, other)
 
-    No rolls are no other flow: where motion has died, the energies tell.
-    """
-    def check(tables: Tables) -> None:
-        a, b = rolls_in(tables, point), rolls_in(tables, other)
-        if a != b and min(a, b) > 0:
-            raise CannotTell(f"{a} rolls against {b} at Ra {point['ra']:g}: another flow, whose energy and "
-                             "velocities say nothing on errors")
-    return guarded(value, check)
+
+def refuse_other_flow(tables: Tables, point: Point, other: Point) -> None:
+    """Refuse different numbers of rolls; where motion has died, the energies tell."""
+    a, b = rolls_in(tables, point), rolls_in(tables, other)
+    if a != b and min(a, b) > 0:
+        raise CannotTell(f"{a} rolls against {b} at Ra {point['ra']:g}: another flow, whose energy and "
+                         "velocities say nothing on errors")
 
 
 def rolls_in(tables: Tables, point: Point) -> int:
@@ -126,7 +124,7 @@ def rolls_in(tables: Tables, point: Point) -> int:
 
 
 def rolls(point: Point) -> Value:
-    """The same as a question that refuses what has died."""
+    """Number of rolls; refused where motion has died."""
     return guarded(mean(point, "rolls"), lambda tables: refuse_dead(one_flow(tables, point)))
 
 
@@ -136,12 +134,20 @@ def refuse_dead(row: pd.Series) -> None:
         raise CannotTell(f"K is {row.ke:.1g} at the end: the flow has died, its rolls are of round-off")
 
 
+def order(errors: dict[int, Value], words: str) -> Value:
+    """The order of convergence, -d ln|error|/d ln rows, of errors by rows."""
+    def slope(tables: Tables) -> Measured:
+        values, errs = zip(*(error(tables) for error in errors.values()))
+        return -fits.power_law(list(errors), values, err=errs).slope
+    return Value(slope, words)
+
+
 # --- curves ---------------------------------------------------------------------------------------
 
 
-def history(question: Any, point: Point, energy: str = "ke_field", such: str = "") -> Value:
+def history(question: Any, point: Point, energy: str = "ke_field") -> Value:
     """A question about K(t) of one run."""
-    return question("history", energy, "t", such, need=SAMPLES, **point)
+    return question("history", energy, "t", need=SAMPLES, **point)
 
 
 def late(t: Array, ke: Array) -> Array:
@@ -151,7 +157,7 @@ def late(t: Array, ke: Array) -> Array:
 
 @curve
 def average(t: Array, ke: Array, err: Array) -> Measured:
-    """Of all samples."""
+    """Mean of all samples."""
     return Measured(ke.mean())
 
 

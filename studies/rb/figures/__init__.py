@@ -4,7 +4,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from continuum.published import published
-from studies.build.names import ENERGY
+from studies.build.names import ENERGY, ra_axis
 from studies.build.words import name_of
 from studies.kit.figure import Drawings, Overview
 from studies.kit.table import Tables
@@ -51,7 +51,9 @@ def whole(axes: Axes, tables: Tables, limit: pd.DataFrame, spam: pd.DataFrame) -
     name_onset(axes)
     printed_numbers(axes)
     axes.set(ylabel=ENERGY, title=f"particles and points: {size:.0f} rows")
-    energy.above_zero(axes)
+    top = axes.get_ylim()[1]
+    axes.set_ylim(-0.02*top, top)       # a little room below zero, where motion has died out
+    ra_axis(axes)
     axes.legend(loc="upper right", title="bars: 95 % intervals", title_fontsize=8)
 
 

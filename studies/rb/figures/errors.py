@@ -67,7 +67,7 @@ def convergence(tables: Tables) -> Figure | None:
         rows = of_series(chosen, keys)
         for axes, ra in zip(line, ras):
             if keys.keys() == WORDS.keys():
-                smoothing(axes, looks.seen(tables, **LAYER, ra=ra))
+                smoothing(axes, tables, ra)
             over_rows(axes, rows[rows.ra == ra], keys)
             finish(axes, f"Ra = {ra:g}", rows)
             below(axes, title=PALE, title_fontsize=8)
@@ -116,9 +116,11 @@ def other_flows(tables: Tables, scene: dict[str, Any]) -> pd.DataFrame:
                         energy="Kp", steady=False)
 
 
-def smoothing(axes: Axes, grid: pd.DataFrame) -> None:
-    """1 - K_smoothed/K of the grid's own field: what the weight alone takes away, drawn as a line."""
+def smoothing(axes: Axes, tables: Tables, ra: float) -> None:
+    """1 - K_smoothed/K of the grid's own field: what Lucy's weight alone takes away, drawn as a line."""
+    grid = looks.rows(tables, "smoothed", **looks.GRID, **LAYER, ra=ra, weight="Lucy", h=3)
     if len(grid):
+        grid = grid.sort_values("rows")
         taken = 1 - grid.ke_smoothed/grid.ke
         axes.plot(grid.rows, taken, color=KIND["kg"]["color"], marker="", lw=2.5, ls=":",
                   label=r"$1 - K_\mathrm{smoothed}/K$: the smoothing alone")

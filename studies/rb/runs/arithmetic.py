@@ -1,8 +1,6 @@
 """Numbers that need no flow: printed ones, equations of state, weights, a few particles    [KHP95]"""
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
 from math import pi, sqrt
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -12,8 +10,8 @@ from continuum.fluid import EQUATIONS_OF_STATE, DenseFluid, IdealGas, VanDerWaal
 from continuum.linear import critical_ra
 from continuum.published import published
 from continuum.scene import RayleighBenard, Walls
-from studies.build.names import number
-from studies.kit.case import Case, Outcome, Report
+from studies.build.names import number as printed
+from studies.kit.case import Case, Report
 from studies.kit.stats import Measured, measured
 from studies.rb.runs import few_particles as few
 from studies.rb.runs.few_particles import AXES, BOTH, LUCY, MONAGHAN, RANGE, density, largest_modulus, least
@@ -23,29 +21,24 @@ IDEAL, VDW, DENSE = IdealGas(), VanDerWaals(), DenseFluid()
 BOXES = (2, 3, 4, 7, 9, 10, 12)     # figures whose captions print particles and box
 
 
-@dataclass(frozen=True, kw_only=True)
-class WithoutFlow(Case):
+class WithoutFlow(Case, table="arithmetic"):
     """The numbers that one function of this module gives by name."""
     numbers: Callable[[], Numbers]
 
-    @property
-    def cost(self) -> float:
-        return 15.0
-
-    def run(self, report: Report, folder: Path) -> Outcome:
-        numbers = {name: measured(one) for name, one in self.numbers().items()}
-        return Outcome({"arithmetic": [{"quantity": name, "value": float(one.value), "err": float(one.err)}
-                                       for name, one in numbers.items()]})
+    def measure(self, report: Report) -> Iterator[dict]:
+        for name, number in self.numbers().items():
+            value, err = measured(number)
+            yield {"quantity": name, "value": float(value), "err": float(err)}
 
 
 def density_of(figure: int) -> float:
     """Particles per area of a figure's box."""
-    return number(f"fig{figure}-particles")/(number(f"fig{figure}-height")*number(f"fig{figure}-width"))
+    return printed(f"fig{figure}-particles")/(printed(f"fig{figure}-height")*printed(f"fig{figure}-width"))
 
 
 def caption_ra(figure: int) -> float:
     """Ra = dT^2 L^2/eta^2 of an ideal gas with dT = 1 in a box 50 high, less the printed one."""
-    return (50/number(f"fig{figure}-eta"))**2 - number(f"fig{figure}-ra")
+    return (50/printed(f"fig{figure}-eta"))**2 - printed(f"fig{figure}-ra")
 
 
 def energy_error(ra: int) -> Measured:
@@ -58,28 +51,28 @@ def energy_error(ra: int) -> Measured:
 
 def ra_by_expansivity() -> float:
     """Ra of Fig. 10 by the definition of Sec. I, alpha = 1/<T>."""
-    scene = RayleighBenard(ra=1.0, L=number("fig10-height"), T_hot=number("fig10-temperature-hot"),
-                           T_cold=number("fig10-temperature-cold"), aspect=1.0, sides=Walls())
-    return scene.g*scene.alpha*scene.L**3*scene.dT/number("fig10-eta-ideal")**2
+    scene = RayleighBenard(ra=1.0, L=printed("fig10-height"), T_hot=printed("fig10-temperature-hot"),
+                           T_cold=printed("fig10-temperature-cold"), aspect=1.0, sides=Walls())
+    return scene.g*scene.alpha*scene.L**3*scene.dT/printed("fig10-eta-ideal")**2
 
 
 def printed_numbers() -> Numbers:
     """What the paper's own numbers say of each other."""
-    L_fig10, eta_fig10 = number("fig10-height"), number("fig10-eta-ideal")
+    L_fig10, eta_fig10 = printed("fig10-height"), printed("fig10-eta-ideal")
     return {
         "largest |density - 1| of captions": max(abs(density_of(figure) - 1) for figure in BOXES),
         "largest |Ra - 10 000| of captions": max(abs(caption_ra(figure)) for figure in (2, 3, 8, 9, 12)),
         "Ra of Fig. 10, dT^2 L^2/eta^2": (9.5*L_fig10/eta_fig10)**2,
         "Ra of Fig. 10, alpha = 1/<T>": ra_by_expansivity(),
-        "Ra of Fig. 4 over onset": number("fig4-ra")/critical_ra(pi),
+        "Ra of Fig. 4 over onset": printed("fig4-ra")/critical_ra(pi),
         "1 - K/K printed, Ra 5000": energy_error(5000),
         "1 - K/K printed, Ra 10 000": energy_error(10000),
         "1 - sqrt(K/K) printed, Ra 5000": 1 - (1 - energy_error(5000))**0.5,
         "1 - sqrt(K/K) printed, Ra 10 000": 1 - (1 - energy_error(10000))**0.5,
-        "4^(1/2)": number("line-range")**-number("line-exponent"),
-        "initial over final kinetic energy": Measured(9.0, 0.5)/(5000*number("ke-10000")),
-        "5000 eta/L^2": number("fig9-time")*0.5/50**2,
-        "rows of 1800 points in a box 1 x 2": sqrt(number("fig12-points")/2),
+        "4^(1/2)": printed("line-range")**-printed("line-exponent"),
+        "initial over final kinetic energy": Measured(9.0, 0.5)/(5000*printed("ke-10000")),
+        "5000 eta/L^2": printed("fig9-time")*0.5/50**2,
+        "rows of 1800 points in a box 1 x 2": sqrt(printed("fig12-points")/2),
     }
 
 
@@ -99,8 +92,8 @@ def imbalance(eos: Any) -> float:
 
 def critical_slopes(step: float = 1e-4) -> float:
     """Largest of dP/drho and d2P/drho2 along the critical isotherm at the critical density, as printed."""
-    rho = number("vdw-critical-density") + step*np.array([-1, 0, 1])
-    P = pressure(VDW, rho, energy(VDW, rho, number("vdw-critical-temperature")))
+    rho = printed("vdw-critical-density") + step*np.array([-1, 0, 1])
+    P = pressure(VDW, rho, energy(VDW, rho, printed("vdw-critical-temperature")))
     return float(max(abs(P[2] - P[0])/(2*step), abs(np.diff(P, 2)[0])/step**2))
 
 

@@ -1,5 +1,5 @@
 """Grid references as cases: the gas, also in py-pde, and the Boussinesq fluid; spectral ones of both."""
-from dataclasses import dataclass
+from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -57,8 +57,7 @@ def field_rows(key: dict, scene: RayleighBenard, grid: Grid, at: Any) -> list[di
     return table_rows(key, **{name: column.ravel() for name, column in columns.items()})
 
 
-@dataclass(frozen=True, kw_only=True)
-class CompressibleSteady(Case):
+class CompressibleSteady(Case, table="kinetic_energy"):
     """Steady states of the gas on ever finer grids, each started from the one before, with `sizes` rows.
 
     keep : whether the finest grid's fields are kept, if not empty. form : of the equations on the grid.
@@ -103,8 +102,7 @@ class CompressibleSteady(Case):
         return {**point, **no_particles(self.scene.free_fall), **spent(solution), "rolls": rolls}
 
 
-@dataclass(frozen=True, kw_only=True)
-class CompressibleApproach(Case):
+class CompressibleApproach(Case, table="history"):
     """K(t) from the rolls of Sec. VI, until t_end in free-fall times    [KHP95, Fig. 8]"""
     scene: RayleighBenard
     rows: int = 50
@@ -114,41 +112,33 @@ class CompressibleApproach(Case):
     def cost(self) -> float:
         return 4e-5*self.rows**3*self.t_end/90 + 3
 
-    def run(self, report: Report, folder: Path) -> Outcome:
+    def measure(self, report: Report) -> list[dict]:
         scene = self.scene
         until = Time(self.t_end*scene.L/scene.free_fall, 300)
         start = initial(scene, self.rows, START_ENERGY)
         solution = run(scene, self.rows, until=until, start=start, progress=report)
         t, ke = solution.series.t, solution.series.ke
         key = {**compressible(scene, self.rows, "flux-form"), "seed": 0}
-        return Outcome({"history": table_rows(key, t=t, t_viscous=t/scene.viscous_time, ke=ke, ke_field=ke)})
+        return table_rows(key, t=t, t_viscous=t/scene.viscous_time, ke=ke, ke_field=ke)
 
 
-@dataclass(frozen=True, kw_only=True)
-class BoussinesqSteady(Case):
+class BoussinesqSteady(Case, table="kinetic_energy"):
     """The periodic pair of rolls (as one roll between planes of symmetry) in the Boussinesq fluid.
 
-    Below onset Newton's method ends at rest, and one grid tells as much as four. States are steady to
-    round-off: the tables' digits are their error.
+    Below onset Newton's method ends at rest. States are steady to round-off: the tables' digits are their
+    error.
     """
     ra: float
     pr: float
     sizes: tuple[int, ...] = (24, 32, 48, 64)
 
-    @property
-    def cost(self) -> float:
-        return sum(6e-5*rows**2 for rows in self.sizes)
-
-    def run(self, report: Report, folder: Path) -> Outcome:
-        rows: list[dict] = []
+    def measure(self, report: Report) -> Iterator[dict]:
         state: boussinesq.State | None = None
         for size in self.sizes:
             case = boussinesq.BoussinesqCase(ra=self.ra, pr=self.pr, box=boussinesq.HALF_LAYER, rows=size)
             steady, compile_s, cpu_s = compile_and_run_seconds(partial(boussinesq.steady, case, state))
             state = steady
-            rows.append({**self._row(steady), "resolution": size, "cpu_s": cpu_s, "compile_s": compile_s})
-            report(len(rows)/len(self.sizes))
-        return Outcome({"kinetic_energy": rows})
+            yield {**self._row(steady), "resolution": size, "cpu_s": cpu_s, "compile_s": compile_s}
 
     def _row(self, state: boussinesq.State) -> dict:
         seen = state.observe()
@@ -159,34 +149,30 @@ class BoussinesqSteady(Case):
                 "rolls": 2*state.rolls, "steps": len(state.changes)}
 
 
-@dataclass(frozen=True, kw_only=True)
-class SpectralGas(Case):
+class SpectralGas(Case, table="kinetic_energy"):
     """The gas in ever more functions along each axis: a truth for grids."""
     scene: RayleighBenard
     sizes: tuple[int, ...] = (16, 20, 24, 28)
 
     def laws(self) -> tuple[dict, Any]:
-        """And how rows name them."""
+        """How rows name the equations, and the equations."""
         return {"method": "spectral-gas", "free_fall": self.scene.free_fall}, GasLaws(self.scene)
 
-    def run(self, report: Report, folder: Path) -> Outcome:
+    def measure(self, report: Report) -> Iterator[dict]:
         runs: list[Any] = []
         names, laws = self.laws()
-        point = {**scene_columns(self.scene), **no_particles(1.0), **AT_ONCE, "variant": "", **names}
         for n in self.sizes:
             start = runs[-1][0] if runs else None
             runs.append(compile_and_run_seconds(partial(spectral.steady, laws, n, start)))
             report(n/self.sizes[-1])
-        last, before = runs[-1][0], runs[-2][0]
-        rows = [{**point, **self._row(state, before if state is last else last), "cpu_s": cpu_s,
-                 "compile_s": compile_s} for state, compile_s, cpu_s in runs]
-        return Outcome({"kinetic_energy": rows})
-
-    def _row(self, state: spectral.SpectralState, other: spectral.SpectralState) -> dict:
-        """The distance to another state is the error."""
-        return {**one_energy(state.K, abs(state.K - other.K)), "nu": state.Nu,
-                "nu_err": abs(state.Nu - other.Nu), "resolution": state.equations.n,
-                "rolls": 2*(state.K > STILL), "steps": len(state.changes)}
+        (before, *_), (last, *_) = runs[-2:]
+        for state, compile_s, cpu_s in runs:
+            other = before if state is last else last       # the distance to it is the error
+            yield {**scene_columns(self.scene), **no_particles(1.0), **AT_ONCE, "variant": "", **names,
+                   **one_energy(state.K, abs(state.K - other.K)), "nu": state.Nu,
+                   "nu_err": abs(state.Nu - other.Nu), "resolution": state.equations.n,
+                   "rolls": 2*(state.K > STILL), "steps": len(state.changes), "cpu_s": cpu_s,
+                   "compile_s": compile_s}
 
 
 class SpectralBoussinesq(SpectralGas):
@@ -196,23 +182,15 @@ class SpectralBoussinesq(SpectralGas):
         return {"method": "spectral-boussinesq", **NO_GAS}, BoussinesqLaws(self.scene.ra, self.scene.pr)
 
 
-@dataclass(frozen=True, kw_only=True)
-class PypdeSteady(Case):
+class PypdeSteady(Case, table="kinetic_energy"):
     """The compressible gas in py-pde."""
     scene: RayleighBenard
-    sizes: tuple[int, ...] = (16, 24, 32)
+    sizes: tuple[int, ...]
 
-    @property
-    def cost(self) -> float:
-        return 8 + sum(6e-5*rows**3 for rows in self.sizes)
-
-    def run(self, report: Report, folder: Path) -> Outcome:
-        rows: list[dict] = []
+    def measure(self, report: Report) -> Iterator[dict]:
         solution: pypde.PdeSolution | None = None
-        point = {"method": "pypde-compressible", "variant": "staggered", **scene_columns(self.scene),
-                 **no_particles(self.scene.free_fall)}
         for size in self.sizes:
             solution = pypde.solve(Gas(self.scene, size), start=solution)
-            rows.append({**point, "resolution": size, **spent(solution), "rolls": solution.rolls})
-            report(len(rows)/len(self.sizes))
-        return Outcome({"kinetic_energy": rows})
+            yield {"method": "pypde-compressible", "variant": "staggered", **scene_columns(self.scene),
+                   **no_particles(self.scene.free_fall), "resolution": size, **spent(solution),
+                   "rolls": solution.rolls}

@@ -1,6 +1,5 @@
 """One run of particles or on points, fixed or moving, in the layer    [KHP95; RR98, Sec. III]"""
 from abc import abstractmethod
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, ClassVar
 
@@ -22,22 +21,20 @@ from studies.kit.table import Rows
 from studies.rb.runs import table_rows
 from studies.rb.runs.grid import field_rows
 
-OFTEN = 8           # records of points that move in a free-fall time
-RECORDS = 4         # the same of fixed points
 MANY = 240          # samples of a history that is shown
 #: columns of a run that diverged
 DIVERGED = {**dict.fromkeys((*VALUES, "cpu_s"), np.nan), "rolls": 0, "converged": False, "mass_drift": 0.0,
             "compile_s": 0.0}
 
 
-@dataclass(frozen=True, kw_only=True)
-class PointsRun(Case):
+class PointsRun(Case, table="kinetic_energy"):
     """One run of a variant until t_end, in free-fall times; one that diverges leaves a row without values."""
     scene: RayleighBenard
     variant: Any
     seed: int = 1
     t_end: float
-    often: ClassVar[int] = OFTEN        # records in a free-fall time
+    often: ClassVar[int] = 8            # records in a free-fall time
+    each: ClassVar[float]               # CPU seconds for each point and unit of time
     method: ClassVar[str] = "dih"
 
     def __post_init__(self):
@@ -48,8 +45,17 @@ class PointsRun(Case):
         """K and Nu with their errors, and whether they have settled."""
 
     @property
+    def cost(self) -> float:
+        return self.each*self.points*self.t_end*self.unit + 5
+
+    @property
+    def held(self) -> int:
+        """1 with rows of points on both plates, where there is one more than between images."""
+        return 0
+
+    @property
     def points(self) -> int:
-        return round(self.scene.width)*round(self.scene.L)
+        return round(self.scene.width)*(round(self.scene.L) + self.held)
 
     @property
     def unit(self) -> float:
@@ -73,9 +79,9 @@ class PointsRun(Case):
         row = {**self.point, "particles": self.points, "free_fall": self.scene.free_fall, "threads": 1,
                "dt": ready.dt, "steps": steps, "t_end": steps*ready.dt}
         if done is None:
-            return Outcome({"kinetic_energy": [row | DIVERGED]})
+            return Outcome({self.table: [row | DIVERGED]})
         values = {**self.energies(done), "cpu_s": done.cpu_s, "compile_s": done.compile_s}
-        return Outcome({"kinetic_energy": [row | values | self.flow(ready, done)], **self.more(ready, done)})
+        return Outcome({self.table: [row | values | self.flow(ready, done)], **self.more(ready, done)})
 
     def more(self, ready: Ready, done: Run) -> Rows:
         """Rows of other tables."""
@@ -94,22 +100,16 @@ class PointsRun(Case):
                 "mass_drift": float(last.V@last.rho/(first.V@first.rho) - 1)}
 
 
-@dataclass(frozen=True, kw_only=True)
-class DihRun(PointsRun):
+class DihRun(PointsRun, table="kinetic_energy"):
     """One run on fixed points until t_end in free-fall times, when nothing changes any more."""
     variant: Scheme = SCHEMES["fixed-lattice"]
     t_end: float = 150.0
-    often: ClassVar[int] = RECORDS
+    often: ClassVar[int] = 4
+    each: ClassVar[float] = 0.7e-6
 
     @property
-    def points(self) -> int:
-        """With rows on both plates there is one more than between images."""
-        return round(self.scene.width)*(round(self.scene.L) + self.variant.held)
-
-    @property
-    def cost(self) -> float:
-        steps = self.t_end*self.unit/max(0.2, 1.1 - self.scene.L/100)
-        return steps*4*self.points*100e-9*(self.variant.h/2)**2 + 5
+    def held(self) -> int:
+        return self.variant.held
 
     def energies(self, done: Run) -> dict:
         """The last ones."""
@@ -118,8 +118,7 @@ class DihRun(PointsRun):
                 "converged": end.converged}
 
 
-@dataclass(frozen=True, kw_only=True)
-class AveragedRun(PointsRun):
+class AveragedRun(PointsRun, table="kinetic_energy"):
     """One run of points that move; averages are taken after `mean_from`, in free-fall times."""
     t_end: float = 90.0
     mean_from: float = 50.0
@@ -137,33 +136,29 @@ class AveragedRun(PointsRun):
         return {**one_energy(K.value, K.err), "nu": heat.value, "nu_err": float(nu_err), "converged": steady}
 
 
-@dataclass(frozen=True, kw_only=True)
-class MovingRun(AveragedRun):
+class MovingRun(AveragedRun, table="kinetic_energy"):
     """One run of the conservative scheme."""
     variant: FacesMotion = MOTIONS["moving"]
-
-    @property
-    def cost(self) -> float:
-        return self.t_end*self.unit/(0.4*self.variant.of_limit)*self.points*3e-6 + 5
+    each: ClassVar[float] = 11e-6
 
 
-@dataclass(frozen=True, kw_only=True)
-class CarriedRun(AveragedRun):
+class DriftRun(AveragedRun, table="kinetic_energy"):
+    """One run of RR98's own motions."""
+    variant: DriftMotion = DRIFT_MOTIONS["moving-literal"]
+    each: ClassVar[float] = 2.7e-6
+
+
+class CarriedRun(AveragedRun, table="kinetic_energy"):
     """One run of points that move with their triangulation. keep : K(t) and the last fields besides?"""
     variant: Carriage = CARRIAGES["moving-delaunay"]
     t_end: float = 200.0        # two viscous times at Ra 10 000: K is 0.1 % low after 90 free-fall times
     mean_from: float = 150.0
     keep: bool = False
+    each: ClassVar[float] = 0.7e-6
 
     @property
-    def points(self) -> int:
-        """With rows on both plates there is one more than between images."""
-        return round(self.scene.width)*(round(self.scene.L) + 1)
-
-    @property
-    def cost(self) -> float:
-        dt = min(0.75, 0.1/self.scene.kappa)*self.variant.of_limit
-        return self.t_end*self.unit/dt*self.points*0.25e-6 + 5
+    def held(self) -> int:
+        return 1
 
     def more(self, ready: Ready, done: Run) -> Rows:
         """Nu at both plates and of the whole layer; what is kept."""
@@ -185,13 +180,3 @@ def between(at: Fields, width: float, grid: Grid) -> Smoothed:
     x = np.concatenate([at.x - [width, 0], at.x, at.x + [width, 0]])
     values = np.tile(np.stack([at.rho, *at.v.T, np.full(len(at.x), np.nan), at.T], axis=1), (3, 1))
     return Smoothed(*CloughTocher2DInterpolator(x, values)(grid.x, grid.y).transpose(2, 0, 1))
-
-
-@dataclass(frozen=True, kw_only=True)
-class DriftRun(AveragedRun):
-    """One run of RR98's own motions."""
-    variant: DriftMotion = DRIFT_MOTIONS["moving-literal"]
-
-    @property
-    def cost(self) -> float:
-        return self.t_end*self.unit/0.6*self.points*1.6e-6 + 5

@@ -1,6 +1,4 @@
 """One run of smooth particles in the layer or the box, as a case    [KHP95, Secs IV-VI]"""
-from dataclasses import dataclass
-from pathlib import Path
 from typing import Any, ClassVar
 
 import numpy as np
@@ -12,8 +10,7 @@ from particles.smooth.spam import Spam
 from studies.build.measure import at_end, flowing, turns
 from studies.build.names import HALVES
 from studies.build.setting import Ready
-from studies.build.spam import PRINTED, Variant, step
-from studies.kit.case import Outcome, Report
+from studies.build.spam import PRINTED, Variant
 from studies.kit.stats import mean, settled
 from studies.kit.table import Rows
 from studies.rb.runs import table_rows
@@ -23,8 +20,7 @@ from studies.rb.runs.points import MANY, AveragedRun
 FEW = 40            # samples of a history that is not shown
 
 
-@dataclass(frozen=True, kw_only=True)
-class SpamRun(AveragedRun):
+class SpamRun(AveragedRun, table="kinetic_energy"):
     """One run of smooth particles.
 
     scene : with L = particle rows over the height (unit spacing). t_end, mean_from : in free-fall times
@@ -35,12 +31,8 @@ class SpamRun(AveragedRun):
     variant: Variant = PRINTED
     mean_from: float = 40.0
     keep: str = ""
+    each: ClassVar[float] = 2.3e-6
     method: ClassVar[str] = "spam"
-
-    @property
-    def cost(self) -> float:
-        steps = self.t_end*self.unit/step(self.scene, self.variant)
-        return steps*4*self.points*230e-9*(self.variant.h/3)**2 + 2
 
     @property
     def grid(self) -> Grid:
@@ -100,9 +92,5 @@ class SpamRun(AveragedRun):
                           vy=around.vy, T=around.T)
 
 
-class MakerRun(SpamRun):
+class MakerRun(SpamRun, table="makers"):
     """The same in a table of its own: `kinetic_energy` is as long as a table may be."""
-
-    def run(self, report: Report, folder: Path) -> Outcome:
-        rows = dict(super().run(report, folder).rows)
-        return Outcome({"makers": rows.pop("kinetic_energy"), **rows})
