@@ -14,8 +14,8 @@ from particles.integral.points import jittered, lattice
 from particles.threads import Threads
 from particles.weights import WendlandC2
 from studies.build.setting import DISORDERS
-from studies.operators.entropy import FLOWS, WAYS, Entropy, of_flow, produced, producer
 from studies.operators.equations import ETA, KAPPA, transported
+from studies.operators.points import FLOWS, WAYS, Entropy, of_flow, produced, producer
 
 POINTS = jittered((9, 8), 0.3, 2)
 
@@ -73,8 +73,7 @@ def test_a_descent_finds_states_that_lose_entropy_by_nested_sums_only():
 
 
 @pytest.mark.parametrize("flow", FLOWS)
-def test_what_a_flow_produces_is_what_its_points_gain_and_of_its_kind(flow):
-    """Two-point fluxes with logarithmic means keep entropy edge by edge, dissipation never destroys it."""
+def test_what_a_flow_produces_is_what_its_points_gain(flow):
     made, (rho, v, T) = producer(flow, POINTS, delaunay(POINTS)), random_fields(POINTS.n, 2)
     sums, _ = made.args
     q, size = of_flow(sums, FLOWS[flow], (rho, v, T))
@@ -83,7 +82,4 @@ def test_what_a_flow_produces_is_what_its_points_gain_and_of_its_kind(flow):
     still.rates(state, rates)
     w = np.array([np.log(T/rho) - 2 + (v**2).sum(axis=1)/(2*T), *(-v.T/T), 1/T])     # c_v = 1
     assert q.sum() == pytest.approx((sums.method.edges.V*w*rates).sum(), abs=1e-12*size.sum())
-    if flow in ("crossed pressure", "mean pressure"):
-        assert np.abs(q).max() < 1e-13*size.max()
-    else:
-        assert (q.min() < -1e-3*size.max()) == (flow == "brackets")
+    assert (q.min() < -1e-13*size.max()) == (flow == "brackets")       # no other flow destroys entropy

@@ -44,7 +44,7 @@ class Operators(NamedTuple):
     linear: np.ndarray
 
 
-def of_particles(points: Points, weight: Any, transport: type) -> Operators:
+def of_particles(points: Points, weight: Any, transport: Any) -> Operators:
     """Operators of smooth particles of unit mass, kappa = 1, no viscosity."""
     method = spam.fluid(weight, tuple(points.box), law=ConstEta(0.0, 1.0), transport=transport)
     sums, *_ = method.look(spam.at_rest(points.x, 1.0))
@@ -73,10 +73,11 @@ def of_edges(points: Points, weight: Any, make: Callable) -> Operators:
                      lambda f: edges.lap(f(x)), edges.linear.transpose(2, 1, 0))
 
 
-NAMES = ("sph", "sumB", "RKGC", "bonet-lok", "corrected", "CRKSPH", "MFM")
-#: name -> function that makes operators, its argument; closed faces: closed, exact, nearest to a weight's
-MAKERS: dict[str, tuple[Callable, Any]] = {name: (of_particles, spam.TODAY[name].transport) for name in NAMES}
-MAKERS |= {"closed faces": (of_edges, exact), "delaunay": (of_edges, delaunay)}
+#: makers of edges; closed faces: closed, exact, nearest to a weight's
+FACES: dict[str, Callable] = {"closed faces": exact, "delaunay": delaunay}
+#: name -> exchange of smooth particles, or maker of edges
+MAKERS = FACES | {name: spam.TODAY[name].transport
+                  for name in ("sph", "sumB", "RKGC", "bonet-lok", "corrected", "CRKSPH", "MFM")}
 
 
 def hexagonal(counts: tuple[int, ...], size: float, seed: int) -> Points:
@@ -132,11 +133,11 @@ class OnPoints(Case, same="maker points cells seed"):
 
 class MakerErrors(OnPoints, table="makers"):
     """Errors of the operators of one of MAKERS, for waves as long as the box."""
-    make: Callable
-    kind: Any
+    kind: Callable
 
     def row(self, points: Points) -> Row:
-        return errors(points, self.make(points, WendlandC2.of(h=3.0), self.kind))
+        read = of_particles if isinstance(self.kind, type) else of_edges
+        return errors(points, read(points, WendlandC2.of(h=3.0), self.kind))
 
 
 def errors(points: Points, at: Operators) -> dict[str, float]:
@@ -160,7 +161,6 @@ def errors(points: Points, at: Operators) -> dict[str, float]:
 NU, WARMER = 2.0, 0.1
 #: the other methods differ from these in pressures and conduct heat as sph does
 SMOOTH = ("sph", "corrected", "delta-plus")
-FACES: dict[str, Callable] = {"closed faces": exact, "delaunay": delaunay}
 
 
 def layer(points: Points) -> tuple[RayleighBenard, np.ndarray]:
