@@ -63,7 +63,10 @@ def test_transforms_of_weights_are_the_known_ones(kind, d, known):
 
 @pytest.mark.parametrize("d", [1, 2, 3])
 def test_lattice_sums_are_those_of_the_edges(d):
-    """Symbols and moments from one point's neighbours against the matrices of the makers."""
+    """Symbols and moments from one point's neighbours against the matrices of the makers.
+
+    Nested transport has the square of the gradient's symbol, so that it does not see zigzags.
+    """
     h, at, k = 2.5, lattice((16, 6, 6)[:d]), 2*np.pi*3/16
     weight, near, wave = Lucy.of(h=h, d=d), around(h, d), np.exp(1j*k*at.x[:, 0])
     for make, w in ((plain, W(weight, near.r)), (printed, line_weight(weight, d, near.r))):
@@ -72,13 +75,7 @@ def test_lattice_sums_are_those_of_the_edges(d):
         assert edges.linear[0, 0, 0] == pytest.approx(float(near.number@(w*near.r))/d, rel=1e-12)
         nested = -(edges.div(edges.grad(wave.real))@wave.real)/(wave.real@wave.real)/k**2
         assert nested == pytest.approx(symbol**2, rel=1e-12)
-
-
-def test_nested_transport_is_blind_to_zigzags_and_edges_are_not():
-    at = lattice((8, 8))
-    edges, zigzag = plain(at, Lucy.of(h=3.0)), np.cos(np.pi*(at.x[:, 0] - at.x[0, 0]))
-    assert np.abs(edges.grad(zigzag)).max() < 1e-14
-    assert (-zigzag*edges.lap(zigzag)).min() > 0.2
+        assert np.abs(edges.grad(np.cos(np.pi*(at.x[:, 0] - at.x[0, 0])))).max() < 1e-12     # of a zigzag
 
 
 def test_the_exponential_weight_is_that_of_print():

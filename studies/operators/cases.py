@@ -12,7 +12,7 @@ from particles.integral.interpolants import Exponential, Gaussian
 from particles.weights import WEIGHTS, Lucy, WendlandC2
 from studies.build.setting import DISORDERS
 from studies.kit.case import Case
-from studies.operators.equations import Arithmetic, EquationErrors, of_dilation, of_volumes
+from studies.operators.equations import Arithmetic, EquationErrors, of_volumes
 from studies.operators.makers import FACES, SETS, SMOOTH, MakerErrors, WallHeat
 from studies.operators.makers import MAKERS as TODAY
 from studies.operators.points import FLOWS, WAYS, Entropy, LayerGrowth, OneKernel, SoundGrowth
@@ -57,8 +57,7 @@ def cases(size: str) -> list[Case]:
 
 def weights(quick: bool) -> Iterator[Case]:
     """Integrals of every weight; lattice sums of Lucy's and the exponential one, the last at many widths."""
-    for numbers in (of_weights, of_edges, of_volumes, of_dilation):
-        yield Arithmetic(numbers=numbers)
+    yield from (Arithmetic(numbers=numbers) for numbers in (of_weights, of_edges, of_volumes))
     for kind in (Lucy, Exponential) if quick else (*WEIGHTS.values(), Exponential, Gaussian):
         yield from (Continuum(weight=kind, d=d) for d in (1, 2, 3))
     yield from (LatticeSums(weight=Lucy, d=d, r0=r0) for d, r0 in product((1, 2, 3), (3.0, 6.0)))

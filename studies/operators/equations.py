@@ -161,7 +161,10 @@ def mass_rate(w: Sums, m: np.ndarray, v: np.ndarray) -> np.ndarray:
 
 
 def of_volumes() -> dict[str, float]:
-    """Eqs 26, 27, 33-37 read literally, over the terms they stand for: a wave along x in 2D, dV = 1/4."""
+    """Eqs 26, 27, 33-37 read literally, over the terms they stand for: a wave along x in 2D, dV = 1/4.
+
+    Besides what the printed trace factor 2/3 adds to the bulk viscosity, over the shear viscosity.
+    """
     at = lattice((ROWS, 8), SPACING)
     edges = renormalised(at, Lucy.of(h=3*SPACING))
     w, dV = brackets(edges), edges.V[0]
@@ -181,6 +184,7 @@ def of_volumes() -> dict[str, float]:
         "pressure, P_ij = P dV": ratio(gathered(w, P), 0.1*thinning),
         "stress, v_i = v": ratio(-gathered(w, stress), -k**2*v*dV),
         "linearised mass, Eq. 21": ratio(*linearised(w, s, c)),
+        "dilation in 3D": added_bulk(3, 2/3),
     }
 
 
@@ -195,13 +199,11 @@ def linearised(w: Sums, s: np.ndarray, c: np.ndarray) -> tuple[np.ndarray, np.nd
     return printed, (above - below)/(2*STEP)
 
 
-def of_dilation() -> dict[str, float]:
-    """Bulk viscosity that the printed trace factor 2/3 adds, over eta    [RR98 Eq. 37]"""
-    return {"dilation in 3D": added_bulk(3, 2/3)}
-
-
 def added_bulk(d: int, trace: float) -> float:
-    """Bulk viscosity less zeta, over eta = 1, from the mean normal stress of v = x in a patch's middle."""
+    """Bulk viscosity that a trace factor adds to zeta, over eta = 1    [RR98 Eqs 16, 37]
+
+    From the mean normal stress of v = x in a patch's middle.
+    """
     at, zeta = lattice((12,)*d), 0.3
     edges = renormalised(at, WendlandC2.of(h=2.5, d=d))
     middle = (np.abs(at.x) < 2).all(axis=1)

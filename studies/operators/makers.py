@@ -2,7 +2,7 @@
 
 Operators of smooth particles are read from the rates of `particles.smooth`: a pressure P pushes by
 -momentum(P), a uniform P heats by -P gradient(v), conduction heats by laplacian(T). L_i is the gradient of x,
-1 where linear fields are exact; its deviator is that of the stress P M, which a fluid does not have.
+1 where linear fields are exact.
 
 Heat through plates with odd images is measured in a layer with Nu = 2, T_m - T = dT (s - sin(2 pi s)/2 pi), s
 = y/L. This profile is flat in the middle and has no second derivative at the plates. Odd images have none
@@ -142,7 +142,7 @@ class MakerErrors(OnPoints, table="makers"):
 
 def errors(points: Points, at: Operators) -> dict[str, float]:
     """Errors of operators relative to exact values, means over waves along x and y."""
-    L, eye, waves = at.linear, np.eye(2)[:, :, None], []
+    eye, waves = np.eye(2)[:, :, None], []
     for a in (0, 1):
         k = 2*np.pi/points.box[a]
 
@@ -151,8 +151,8 @@ def errors(points: Points, at: Operators) -> dict[str, float]:
         right = k*np.cos(k*at.x[a])*eye[a]
         lap = size(at.laplacian(sine) + k**2*sine(at.x))/size(k**2*sine(at.x))
         waves.append([*(size(slope(sine) - right)/size(right) for slope in (at.momentum, at.gradient)), lap])
-    return {"closure": points.a*size(at.momentum(lambda x: 1 + 0*x[0])), "linear": size(L - eye)/sqrt(2),
-            "deviator": size(L - eye*np.trace(L)/2)/sqrt(2),
+    return {"closure": points.a*size(at.momentum(lambda x: 1 + 0*x[0])),
+            "linear": size(at.linear - eye)/sqrt(2),
             **dict(zip(("divergence", "gradient", "laplacian"), np.mean(waves, axis=0)))}
 
 

@@ -78,11 +78,10 @@ ENTROPY = Table.of("entropy", "transport maker points d state cells seed", "tota
                           "negative": ("share of the edges that destroy entropy", "")})
 
 MAKERS = Table.of("makers", "maker points cells seed",
-                  "closure linear deviator divergence gradient laplacian",
+                  "closure linear divergence gradient laplacian",
                   about="Areas of one method on one set of points, range 3 a; waves as long as the box.",
                   means={"closure": ("rms of sum_j S_ij/V_i", "1/a"),
                          "linear": ("rms error of the gradients of linear fields", ""),
-                         "deviator": ("rms deviator of those gradients", ""),
                          "divergence": ("rms error of a wave of pressure over its rms slope", ""),
                          "laplacian": ("the same of its Laplacian, by conduction", "")})
 ORDER: dict[str, Any] = {"about": "How these errors fall with the spacing; their mean at the finest.",
@@ -104,7 +103,7 @@ LEAST = 3           # least number of sizes for an order
 SHORTEST = 16       # least wavelength for an order, in spacings: (h/lambda)^4 is 2 % of the error there
 NORMS = ["rms", "largest"]
 ROUND_OFF = 1e-10   # of sums
-ERRORS = ["closure", "linear", "deviator", "divergence", "gradient", "laplacian"]
+ERRORS = ["closure", "linear", "divergence", "gradient", "laplacian"]
 NOTHING = Measured(np.nan, np.nan)
 
 
