@@ -3,11 +3,10 @@ import numpy as np
 import pytest
 from scenes import rows_of
 
-from particles.integral.edge_makers import MAKERS, exact, plain
-from particles.integral.points import Points, jittered, lattice
+from particles.integral.edge_makers import MAKERS, plain
+from particles.integral.points import Points, lattice
 from particles.integral.rr98_moving_plain import MOTIONS
-from particles.weights import Lucy, WendlandC2
-from studies.build.setting import DISORDERS
+from particles.weights import Lucy
 from studies.conservation.forces import (
     STILL,
     VISCOUS,
@@ -21,15 +20,11 @@ from studies.conservation.sums import random_fields
 
 ZERO, BROKEN = 1e-15, 1e-9     # round-off; what is none, though signs may cancel
 LAWFUL = ("pressure, P_i + P_j", "convection, half of each end", "friction, Eq. 37")
+ALONG = ("pressure, P_i + P_j", "pressure, Eq. 13", "friction, Eq. 51, B = 0")
 
 
 def torque(x, f):
     return np.sum(x[:, 0]*f[:, 1] - x[:, 1]*f[:, 0])
-
-
-def torques(maker, points="jittered-0.3", seed=4):
-    case = EdgeTorque(maker=MAKERS[maker], points=DISORDERS[points], seed=seed)
-    return {row["exchange"]: row["torque"] for row in rows_of(case, "torques")}
 
 
 def test_torques_of_edges_are_those_of_their_ends():
@@ -42,45 +37,28 @@ def test_torques_of_edges_are_those_of_their_ends():
         assert torque(points.x, force) == pytest.approx(torque(edges.apart, f), abs=1e-11), name
 
 
-@pytest.mark.parametrize("maker", ["delaunay", "exact"])
-@pytest.mark.parametrize("seed", [4, 5])
-def test_halves_of_a_symmetric_stress_have_no_torque_on_exact_edges(maker, seed):
-    found = torques(maker, seed=seed)
-    assert max(found[name] for name in LAWFUL) < ZERO
-    assert found["convection, Eq. 35"] > BROKEN
-
-
-@pytest.mark.parametrize("maker", ["plain", "renormalised", "printed"])
-def test_what_points_along_edges_has_no_torque(maker):
-    found = torques(maker)
-    along = ("pressure, P_i + P_j", "pressure, Eq. 13", "friction, Eq. 51, B = 0")
-    assert max(found[name] for name in along) < ZERO
-    assert found["friction, Eq. 51"] > BROKEN
-
-
-def test_friction_along_velocities_has_no_torque_where_the_laplacian_of_places_is_zero():
-    assert max(torques("delaunay")["friction, Eq. 51"],
-               torques("renormalised", "lattice")["friction, Eq. 51"]) < ZERO
-
-
-def test_crossed_pressure_turns_by_a_product_of_differences():
-    """P_ij + P_ji - P_i - P_j = -(rho_i - rho_j)(T_i - T_j): fields a tenth as large turn by a hundredth."""
-    points = jittered((12, 12), 0.3, 6)
-    edges, (rho, v, T) = exact(points, WendlandC2.of(h=3.0)), random_fields(points, 0.1, 6)
-    whole, tenth = (dict(exchanges(edges, (1 + c*(rho - 1), v, 1 + c*(T - 1)))) for c in (1.0, 0.1))
-    turn = [torque(edges.apart, f["pressure, Eq. 13"]) for f in (whole, tenth)]
-    assert turn[1] == pytest.approx(turn[0]/100, rel=1e-6)
+@pytest.mark.parametrize(("maker", "still", "turning"), [
+    ("delaunay", (*LAWFUL, "friction, Eq. 51"), "convection, Eq. 35"),
+    ("exact", LAWFUL, "convection, Eq. 35"),
+    *((maker, ALONG, "friction, Eq. 51") for maker in ("plain", "renormalised", "printed"))])
+def test_halves_of_a_symmetric_stress_on_exact_edges_and_forces_along_edges_have_no_torque(maker, still,
+                                                                                           turning):
+    """On exact edges friction along velocities has none where the Laplacian of places is zero."""
+    case = EdgeTorque(make=MAKERS[maker], points="jittered-0.3", seed=4)
+    torques = {row["exchange"]: row["torque"] for row in rows_of(case, "torques")}
+    assert max(torques[name] for name in still) < ZERO
+    assert torques[turning] > BROKEN
 
 
 @pytest.mark.parametrize("motion", MOTIONS)
 def test_motions_keep_angular_momentum_where_masses_stay(motion):
-    case = MotionTorque(motion=motion, law=STILL)
+    case = MotionTorque(motion=motion, kind=MOTIONS[motion], law=STILL)
     torque = rows_of(case, "motion_torques")[0]["torque"]
     assert torque < ZERO if motion in ("carried", "constant-mass") else torque > BROKEN
 
 
 def test_smooth_particles_push_along_pairs_and_rub_across():
-    found = [rows_of(MotionTorque(motion="spam", law=law), "motion_torques")[0]["torque"]
+    found = [rows_of(MotionTorque(motion="spam", kind=None, law=law), "motion_torques")[0]["torque"]
              for law in (STILL, VISCOUS)]
     assert found[0] < ZERO and found[1] > BROKEN
 

@@ -2,7 +2,7 @@
 
 Lengths in spacings; densities, temperatures and sound speeds about 1. Size `paper`: ten minutes on one core.
 """
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from itertools import product
 
 from continuum.exact.shear import couette, poiseuille
@@ -12,30 +12,32 @@ from particles.integral.interpolants import Exponential, Gaussian
 from particles.weights import WEIGHTS, Lucy, WendlandC2
 from studies.build.setting import DISORDERS
 from studies.kit.case import Case
-from studies.operators import scheme
-from studies.operators.entropy import FLOWS, WAYS, Entropy
-from studies.operators.equations import Arithmetic, EquationErrors, of_dilation, of_rotation, of_volumes
+from studies.operators.equations import Arithmetic, EquationErrors, of_volumes
 from studies.operators.makers import FACES, SETS, SMOOTH, MakerErrors, WallHeat
 from studies.operators.makers import MAKERS as TODAY
-from studies.operators.transport import BETWEEN, Decay, Drive, ShearFlow, of_edges
-from studies.operators.weights import Continuum, ExponentialWave, LatticeSums, of_weights
+from studies.operators.points import FLOWS, WAYS, Entropy, LayerGrowth, OneKernel, SoundGrowth
+from studies.operators.transport import BETWEEN, Decay, Drive, EulerLimit, ShearFlow, of_edges
+from studies.operators.weights import (
+    Continuum,
+    EdgeForces,
+    EdgeViscosities,
+    ExponentialWave,
+    LatticeSums,
+    of_weights,
+)
 
-KINDS = (*WEIGHTS.values(), Exponential, Gaussian)
 SEEDS = (1, 2, 3)
 #: by dimension: range of the weight, numbers of cells across the wave
 CELLS = {1: (3.0, (32, 64, 128, 256)), 2: (3.0, (32, 48, 64, 96)), 3: (2.0, (16, 20, 24, 32))}
 #: A(r) and B(r) of Eq. 51
-FORCES = (scheme.EdgeForces("A 1/r", (1.0, -1), (0.0, 0)),
-          scheme.EdgeForces("B 1/r", (0.0, 0), (1.0, -1)),
-          scheme.EdgeForces("A and B 1/r", (3.0, -1), (1.0, -1)),
-          scheme.EdgeForces("A 1, B r^2", (1.0, 0), (2.0, 2)),
-          scheme.EdgeForces("A r, B 1", (5.0, 1), (1.0, 0)))
+FORCES = (EdgeForces("A 1/r", (1.0, -1), (0.0, 0)),
+          EdgeForces("B 1/r", (0.0, 0), (1.0, -1)),
+          EdgeForces("A and B 1/r", (3.0, -1), (1.0, -1)),
+          EdgeForces("A 1, B r^2", (1.0, 0), (2.0, 2)),
+          EdgeForces("A r, B 1", (5.0, 1), (1.0, 0)))
 
-SHIFTED = ("jittered-0.3", "random")
-OFF_LATTICE = ("jittered-0.1", "jittered-0.3", "random", "relaxed")
-#: (points, range of the weight) in 1D, 2D, 3D: for random states, and for sound
+#: (points, range of the weight) in 1D, 2D, 3D of random states
 STATES = (((20,), 2.7), ((10, 12), 2.7), ((6, 6, 7), 2.2))
-BOXES = (((40,), 3.0), ((10, 10), 3.0), ((6, 6, 6), 2.0))
 GASES = (LinearGas(0.02, 0.01, 0.03), LinearGas(0.03, 0.0, 0.0), LinearGas(0.01, 0.0, 0.05))
 #: share of transport along edges in the motionless layer
 SHARES = (0.0, 0.003, 0.01, 0.03, 0.05, 0.07, 0.1, 0.3, 1.0)
@@ -55,9 +57,8 @@ def cases(size: str) -> list[Case]:
 
 def weights(quick: bool) -> Iterator[Case]:
     """Integrals of every weight; lattice sums of Lucy's and the exponential one, the last at many widths."""
-    for numbers in (of_weights, of_edges, of_volumes, of_dilation, of_rotation):
-        yield Arithmetic(numbers=numbers)
-    for kind in (Lucy, Exponential) if quick else KINDS:
+    yield from (Arithmetic(numbers=numbers) for numbers in (of_weights, of_edges, of_volumes))
+    for kind in (Lucy, Exponential) if quick else (*WEIGHTS.values(), Exponential, Gaussian):
         yield from (Continuum(weight=kind, d=d) for d in (1, 2, 3))
     yield from (LatticeSums(weight=Lucy, d=d, r0=r0) for d, r0 in product((1, 2, 3), (3.0, 6.0)))
     yield from (LatticeSums(weight=Exponential, d=3, r0=r0) for r0 in (2.0, 4.0, 8.0))
@@ -69,28 +70,19 @@ def equations(quick: bool) -> Iterator[Case]:
     for d, (h, cells) in CELLS.items():
         if d < 3 or not quick:
             yield from (EquationErrors(d=d, weight=WendlandC2, h=h, cells=n) for n in cells)
-    yield from (scheme.EdgeViscosities(d=d, form=forces, h=6.0) for d, forces in product((2, 3), FORCES))
+    yield from (EdgeViscosities(d=d, form=forces, h=6.0) for d, forces in product((2, 3), FORCES))
 
 
 def points(quick: bool) -> Iterator[Case]:
     """Pressures that are not symmetric, growth of sound, limits of Euler's step."""
-    dimensions, seeds = ((2,), SEEDS[:1]) if quick else ((1, 2, 3), SEEDS)
-    for d in dimensions:
-        yield from on_points(scheme.OneKernel, STATES[d - 1], ["renormalised"], SHIFTED, seeds)
-        yield from on_points(scheme.SoundGrowth, BOXES[d - 1], MAKERS, ["lattice"], (1,))
-        kinds = ["jittered-0.3"] if quick else OFF_LATTICE if d == 2 else SHIFTED
-        yield from on_points(scheme.SoundGrowth, BOXES[d - 1], MAKERS, kinds, seeds)
-    yield from (scheme.EulerLimit(gas=gas) for gas in GASES)
-
-
-def on_points(case: type[scheme.PointSet], box: tuple[tuple[int, ...], float], makers: Iterable[str],
-              kinds: Iterable[str], seeds: Iterable[int]) -> Iterator[scheme.PointSet]:
-    """Cases over makers, kinds of points and seeds; Delaunay edges need d > 1 and, in 3D, no lattice."""
-    counts, h = box
-    d = len(counts)
-    for maker, kind, seed in product(makers, kinds, seeds):
-        if maker != "delaunay" or not (d == 1 or (d == 3 and kind == "lattice")):
-            yield case(maker=MAKERS[maker], points=DISORDERS[kind], counts=counts, h=h, seed=seed)
+    states, kinds, seeds = (STATES[1:2], ("lattice", "jittered-0.3"), SEEDS[:1]) if quick else (
+        STATES, DISORDERS, SEEDS)
+    for (counts, h), kind, seed in product(states, ("jittered-0.3", "random"), seeds):
+        yield OneKernel(maker=renormalised, points=DISORDERS[kind], counts=counts, h=h, seed=seed)
+    for maker, kind in product(MAKERS.values(), kinds):
+        for seed in seeds[:1] if kind == "lattice" else seeds:
+            yield SoundGrowth(maker=maker, points=DISORDERS[kind], counts=(10, 10), h=3.0, seed=seed)
+    yield from (EulerLimit(gas=gas) for gas in GASES)
 
 
 def waves(quick: bool) -> Iterator[Case]:
@@ -119,7 +111,7 @@ def layers(quick: bool) -> Iterator[Case]:
     """A motionless layer: two ranges of the weight, two Rayleigh numbers below onset."""
     sizes = (8,) if quick else (8, 12, 16)
     for h, rows, ra, share in product((2.0, 3.0), sizes, (200.0, 1500.0), SHARES):
-        yield scheme.LayerGrowth(h=h, rows=rows, ra=ra, share=share)
+        yield LayerGrowth(h=h, rows=rows, ra=ra, share=share)
 
 
 def entropy(quick: bool) -> Iterator[Case]:
@@ -137,11 +129,11 @@ def entropy(quick: bool) -> Iterator[Case]:
 def makers(quick: bool) -> Iterator[Case]:
     """Errors of the areas of today's methods on all sets of points."""
     cells, seeds = ((8, 12, 16), (1,)) if quick else ((16, 32, 48), SEEDS[:2])
-    for (name, (make, kind)), (points, disorder), n in product(TODAY.items(), SETS.items(), cells):
+    for (name, kind), (points, disorder), n in product(TODAY.items(), SETS.items(), cells):
         for seed in seeds[:1] if points in ("lattice", "hexagonal", "relaxed") else seeds:
-            yield MakerErrors(maker=name, make=make, kind=kind, points=disorder, cells=n, seed=seed)
-    for name, (make, kind) in () if quick else TODAY.items():       # one seed: three sizes give no order
-        yield MakerErrors(maker=name, make=make, kind=kind, points=SETS["lattice"], cells=24)
+            yield MakerErrors(maker=name, kind=kind, points=disorder, cells=n, seed=seed)
+    for name, kind in () if quick else TODAY.items():       # one seed: three sizes give no order
+        yield MakerErrors(maker=name, kind=kind, points=SETS["lattice"], cells=24)
 
 
 def wall_heat(quick: bool) -> Iterator[Case]:

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from scipy import sparse
 
-from continuum.fluid import ConstEta, IdealGas, PowerLaw, VanDerWaals, stress_tensor
+from continuum.fluid import ConstEta, PowerLaw, VanDerWaals, stress_tensor
 from particles.integral.dih import Dih, Flow, NestedFluxes, Pairwise, gained
 from particles.integral.edge_makers import renormalised
 from particles.integral.edges import Edges
@@ -22,11 +22,8 @@ CHANGING = PowerLaw(ETA, KAPPA, n=1.0)      # eta and kappa proportional to T
 
 ROWS, SPACING = 64, 0.5     # of the lattice on which dV is 1/4
 STEP = 1e-4                 # of a central difference of Eq. 34: exact, as Eq. 34 is quadratic
-OMEGA = 0.05                # angular velocity of a rigid rotation
 
 Sums = list[sparse.csr_array]
-#: (operator, discrete, exact)
-Terms = Iterator[tuple[str, np.ndarray, np.ndarray]]
 
 
 class Spectral(NamedTuple):
@@ -48,7 +45,7 @@ class Spectral(NamedTuple):
 
     def div(self, F: np.ndarray) -> np.ndarray:
         """Divergence: sum_a d_a F[:, a]."""
-        return np.sum([self.derivative(F[:, a], a) for a in range(len(self.shape))], axis=0)
+        return np.einsum("naa...->n...", self.grad(F))
 
 
 def smooth_flow(x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -73,8 +70,11 @@ def rates(dih: Dih, state: np.ndarray) -> np.ndarray:
     return out
 
 
-def terms(dih: Dih, flow: Flow, exact: Spectral) -> Terms:
-    """Terms of Eqs 34-38 as printed, except for the trace factor; eta and kappa proportional to T."""
+def terms(dih: Dih, flow: Flow, exact: Spectral) -> Iterator[tuple[str, np.ndarray, np.ndarray]]:
+    """(name, discrete, exact) of terms of Eqs 34-38 as printed, except for the trace factor, and of Eq. 51.
+
+    eta and kappa are proportional to T, but constant in Eq. 51.
+    """
     rho, v, T, eps, P = flow
     eta, _, kappa = dih.coefficients(flow)
     stress = stress_tensor(eta, ZETA, exact.grad(v))
@@ -90,17 +90,10 @@ def terms(dih: Dih, flow: Flow, exact: Spectral) -> Terms:
     yield "momentum", np.stack(momentum, axis=1), force                                        # [Eq. 8]
     work = np.einsum("nab,nb->na", stress, v)
     yield "energy", energy, -exact.div((eps + P)[:, None]*v - work - current)                  # [Eq. 9]
-
-
-def frictions(dih: Dih, flow: Flow, exact: Spectral) -> Terms:
-    """Forces along edges with constant viscosities, and with eta proportional to T    [RR98 Eq. 51]"""
-    slope = exact.grad(flow.v)
-    constant = ConstEta(ETA, KAPPA)
-    fluids = (("zeta 0.01", constant, ZETA), ("zeta 0", constant, 0.0), ("eta(T)", CHANGING, 0.0))
-    for name, law, zeta in fluids:
-        fluid = replace(dih, law=law, zeta=zeta, transport=ALONG)
-        stress = stress_tensor(fluid.coefficients(flow).eta, zeta, slope)
-        yield f"friction, {name}", transported(fluid, flow)[1:-1].T, exact.div(stress)
+    if v.shape[1] == 2:
+        fluid = replace(dih, law=ConstEta(ETA, KAPPA), zeta=0.0, transport=ALONG)
+        stress = stress_tensor(fluid.coefficients(flow).eta, 0.0, exact.grad(v))
+        yield "friction, zeta 0", transported(fluid, flow)[1:-1].T, exact.div(stress)
 
 
 class EquationErrors(Case, table="equations", same="d weight h cells"):
@@ -119,10 +112,7 @@ class EquationErrors(Case, table="equations", same="d weight h cells"):
         edges = renormalised(at, weight_of(self.weight, self.h/self.cells, self.d))
         dih = Dih(edges=edges, eos=VanDerWaals(), law=CHANGING, zeta=ZETA, transport=PRINTED)
         flow = dih.flow(dih.state(*smooth_flow(at.x)))
-        pairs = [*terms(dih, flow, exact)]
-        if self.d == 2:
-            pairs += frictions(dih, flow, exact)
-        for name, discrete, true in pairs:
+        for name, discrete, true in terms(dih, flow, exact):
             error = np.linalg.norm(discrete - true)/np.linalg.norm(true)
             yield {"operator": name, "error": error, "ratio": ratio(discrete, true)}
 
@@ -171,7 +161,10 @@ def mass_rate(w: Sums, m: np.ndarray, v: np.ndarray) -> np.ndarray:
 
 
 def of_volumes() -> dict[str, float]:
-    """Eqs 26, 27, 33-37 read literally, over the terms they stand for: a wave along x in 2D, dV = 1/4."""
+    """Eqs 26, 27, 33-37 read literally, over the terms they stand for: a wave along x in 2D, dV = 1/4.
+
+    Besides what the printed trace factor 2/3 adds to the bulk viscosity, over the shear viscosity.
+    """
     at = lattice((ROWS, 8), SPACING)
     edges = renormalised(at, Lucy.of(h=3*SPACING))
     w, dV = brackets(edges), edges.V[0]
@@ -191,6 +184,7 @@ def of_volumes() -> dict[str, float]:
         "pressure, P_ij = P dV": ratio(gathered(w, P), 0.1*thinning),
         "stress, v_i = v": ratio(-gathered(w, stress), -k**2*v*dV),
         "linearised mass, Eq. 21": ratio(*linearised(w, s, c)),
+        "dilation in 3D": added_bulk(3, 2/3),
     }
 
 
@@ -205,30 +199,13 @@ def linearised(w: Sums, s: np.ndarray, c: np.ndarray) -> tuple[np.ndarray, np.nd
     return printed, (above - below)/(2*STEP)
 
 
-def of_dilation() -> dict[str, float]:
-    """Bulk viscosity that the printed trace factor 2/3 adds, over eta    [RR98 Eq. 37]"""
-    return {f"dilation in {d}D": added_bulk(d, 2/3) for d in (2, 3)}
-
-
 def added_bulk(d: int, trace: float) -> float:
-    """Bulk viscosity less zeta, over eta = 1, from the mean normal stress of v = x in a patch's middle."""
+    """Bulk viscosity that a trace factor adds to zeta, over eta = 1    [RR98 Eqs 16, 37]
+
+    From the mean normal stress of v = x in a patch's middle.
+    """
     at, zeta = lattice((12,)*d), 0.3
     edges = renormalised(at, WendlandC2.of(h=2.5, d=d))
     middle = (np.abs(at.x) < 2).all(axis=1)
     stress = kernel(inner(brackets(edges), at.x), 1.0, zeta, trace)[middle]
     return float(np.trace(stress, axis1=1, axis2=2).mean()/d**2 - zeta)         # div v = d
-
-
-def of_rotation() -> dict[str, float]:
-    """Heating of a rigid rotation by forces along edges as printed, over eta omega^2    [RR98 Eq. 51]
-
-    Edges keep their lengths, so only the force along v_ij heats: by 2 B omega^2, B = eta (1/2 + 1/d).
-    """
-    at = lattice((24, 24))
-    edges, one = renormalised(at, WendlandC2.of(h=2.2)), np.ones(at.n)
-    v = OMEGA*np.stack([-at.x[:, 1], at.x[:, 0]], axis=1)
-    dih = Dih(edges=edges, eos=IdealGas(), law=ConstEta(1.0, 1.0), transport=ALONG)
-    _, *force, power = transported(dih, dih.flow(dih.state(one, v, one)))
-    heating = power - (v.T*force).sum(axis=0)
-    middle = np.hypot(*at.x.T) < 2.5        # two ranges from where the rotation ends
-    return {"heating of a rotation": float(heating[middle].mean()/OMEGA**2)}

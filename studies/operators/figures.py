@@ -6,10 +6,11 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from particles.integral.edge_makers import MAKERS
+from studies.build.setting import DISORDERS
 from studies.kit.figure import Drawing, Drawings, errorbar, figure, logarithmic, look
 
-KINDS = ("lattice", "jittered-0.1", "jittered-0.3", "random", "relaxed")
-MAKERS = ("printed", "plain", "renormalised", "closed", "exact", "delaunay")
+KINDS = list(DISORDERS)
 FLOOR = 1e-16       # smaller values, of round-off, are drawn here
 #: points between plates -> title
 WALLED = {"lattice": "lattice, images behind the plates", "jittered-0.2": "shifted by up to $0.2a$, images",

@@ -2,7 +2,7 @@
 
 Operators of smooth particles are read from the rates of `particles.smooth`: a pressure P pushes by
 -momentum(P), a uniform P heats by -P gradient(v), conduction heats by laplacian(T). L_i is the gradient of x,
-1 where linear fields are exact; its deviator is that of the stress P M, which a fluid does not have.
+1 where linear fields are exact.
 
 Heat through plates with odd images is measured in a layer with Nu = 2, T_m - T = dT (s - sin(2 pi s)/2 pi), s
 = y/L. This profile is flat in the middle and has no second derivative at the plates. Odd images have none
@@ -44,7 +44,7 @@ class Operators(NamedTuple):
     linear: np.ndarray
 
 
-def of_particles(points: Points, weight: Any, transport: type) -> Operators:
+def of_particles(points: Points, weight: Any, transport: Any) -> Operators:
     """Operators of smooth particles of unit mass, kappa = 1, no viscosity."""
     method = spam.fluid(weight, tuple(points.box), law=ConstEta(0.0, 1.0), transport=transport)
     sums, *_ = method.look(spam.at_rest(points.x, 1.0))
@@ -73,10 +73,11 @@ def of_edges(points: Points, weight: Any, make: Callable) -> Operators:
                      lambda f: edges.lap(f(x)), edges.linear.transpose(2, 1, 0))
 
 
-NAMES = ("sph", "sumB", "RKGC", "bonet-lok", "corrected", "CRKSPH", "MFM")
-#: name -> function that makes operators, its argument; closed faces: closed, exact, nearest to a weight's
-MAKERS: dict[str, tuple[Callable, Any]] = {name: (of_particles, spam.TODAY[name].transport) for name in NAMES}
-MAKERS |= {"closed faces": (of_edges, exact), "delaunay": (of_edges, delaunay)}
+#: makers of edges; closed faces: closed, exact, nearest to a weight's
+FACES: dict[str, Callable] = {"closed faces": exact, "delaunay": delaunay}
+#: name -> exchange of smooth particles, or maker of edges
+MAKERS = FACES | {name: spam.TODAY[name].transport
+                  for name in ("sph", "sumB", "RKGC", "bonet-lok", "corrected", "CRKSPH", "MFM")}
 
 
 def hexagonal(counts: tuple[int, ...], size: float, seed: int) -> Points:
@@ -132,16 +133,16 @@ class OnPoints(Case, same="maker points cells seed"):
 
 class MakerErrors(OnPoints, table="makers"):
     """Errors of the operators of one of MAKERS, for waves as long as the box."""
-    make: Callable
-    kind: Any
+    kind: Callable
 
     def row(self, points: Points) -> Row:
-        return errors(points, self.make(points, WendlandC2.of(h=3.0), self.kind))
+        read = of_particles if isinstance(self.kind, type) else of_edges
+        return errors(points, read(points, WendlandC2.of(h=3.0), self.kind))
 
 
 def errors(points: Points, at: Operators) -> dict[str, float]:
     """Errors of operators relative to exact values, means over waves along x and y."""
-    L, eye, waves = at.linear, np.eye(2)[:, :, None], []
+    eye, waves = np.eye(2)[:, :, None], []
     for a in (0, 1):
         k = 2*np.pi/points.box[a]
 
@@ -150,8 +151,8 @@ def errors(points: Points, at: Operators) -> dict[str, float]:
         right = k*np.cos(k*at.x[a])*eye[a]
         lap = size(at.laplacian(sine) + k**2*sine(at.x))/size(k**2*sine(at.x))
         waves.append([*(size(slope(sine) - right)/size(right) for slope in (at.momentum, at.gradient)), lap])
-    return {"closure": points.a*size(at.momentum(lambda x: 1 + 0*x[0])), "linear": size(L - eye)/sqrt(2),
-            "deviator": size(L - eye*np.trace(L)/2)/sqrt(2),
+    return {"closure": points.a*size(at.momentum(lambda x: 1 + 0*x[0])),
+            "linear": size(at.linear - eye)/sqrt(2),
             **dict(zip(("divergence", "gradient", "laplacian"), np.mean(waves, axis=0)))}
 
 
@@ -160,7 +161,6 @@ def errors(points: Points, at: Operators) -> dict[str, float]:
 NU, WARMER = 2.0, 0.1
 #: the other methods differ from these in pressures and conduct heat as sph does
 SMOOTH = ("sph", "corrected", "delta-plus")
-FACES: dict[str, Callable] = {"closed faces": exact, "delaunay": delaunay}
 
 
 def layer(points: Points) -> tuple[RayleighBenard, np.ndarray]:

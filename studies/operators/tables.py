@@ -3,7 +3,9 @@
 Lengths in spacings (`continuum`: in r0); `_err`: half of the 95 % interval; `predicted`: value by theory of
 the number beside it.
 """
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
+from functools import partial
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -18,7 +20,7 @@ CONTINUUM = Table.of("continuum", "weight d quantity", "value value_err predicte
 LATTICE = Table.of("lattice", "how weight d r0 n", "value predicted",
                    about="A discrete moment of a weight: sum of w r^n/r0^(n-1) over a lattice.",
                    means={"n": ("power of r", ""), "value": ("the sum", "")})
-EXPONENTIAL = Table.of("exponential", "d wavelength r0", "plain renormalised",
+EXPONENTIAL = Table.of("exponential", "d wavelength r0", "plain",
                        about="The gradient of a plane wave with the exponential weight [RR98 Eq. 31].")
 NUMBERS = Table.of("numbers", "quantity", "value",
                    about="A number without parameters: of weights, and of Eqs 21, 26, 27, 33-37 as printed.")
@@ -41,9 +43,7 @@ ONE_KERNEL = Table.of("one_kernel", f"{POINTS} seed", "lost",
 GROWTH = Table.of("growth", f"{POINTS} viscosity seed", "rate closure",
                   about="Sound in a fluid at rest on one set of points.")
 GROWTH_MEANS = Table.of("growth_means", f"{POINTS} viscosity",
-                        "seeds rate rate_err largest closure closure_err",
-                        about="The same, means over seeds.",
-                        means={"largest": ("largest rate of a seed", "c/a")})
+                        "seeds rate rate_err closure closure_err", about="The same, means over seeds.")
 EULER = Table.of("euler", "eta zeta kappa mode", "k limit predicted",
                  about="The largest stable step of forward Euler [Eq. 40] for waves on a lattice.",
                  means={"mode": ("whole waves along 32 points", ""), "k": ("wave number", "1/a"),
@@ -78,23 +78,20 @@ ENTROPY = Table.of("entropy", "transport maker points d state cells seed", "tota
                           "negative": ("share of the edges that destroy entropy", "")})
 
 MAKERS = Table.of("makers", "maker points cells seed",
-                  "closure linear deviator divergence gradient laplacian",
+                  "closure linear divergence gradient laplacian",
                   about="Areas of one method on one set of points, range 3 a; waves as long as the box.",
                   means={"closure": ("rms of sum_j S_ij/V_i", "1/a"),
                          "linear": ("rms error of the gradients of linear fields", ""),
-                         "deviator": ("rms deviator of those gradients", ""),
                          "divergence": ("rms error of a wave of pressure over its rms slope", ""),
                          "laplacian": ("the same of its Laplacian, by conduction", "")})
-MAKER_ORDERS = Table.of("maker_orders", "maker points quantity", "order order_err finest finest_err",
-                        about="How these errors fall with the spacing; their mean at the finest.",
-                        means={"finest": ("mean over seeds at the finest spacing", "")})
+ORDER: dict[str, Any] = {"about": "How these errors fall with the spacing; their mean at the finest.",
+                         "means": {"finest": ("mean over seeds at the finest spacing", "")}}
+MAKER_ORDERS = Table.of("maker_orders", "maker points quantity", "order order_err finest finest_err", **ORDER)
 WALL_HEAT = Table.of("wall_heat", "maker points cells seed", "wall",
                      about="Heat through plates with images, from a profile with Nu = 2, range 3 a.",
                      means={"cells": ("rows between the plates", ""),
                             "wall": ("rms over both plates of Nu over the exact one, less 1", "")})
-WALL_ORDERS = Table.of("wall_orders", "maker points", "order order_err finest finest_err",
-                       about="How these errors fall with the spacing; their mean at the finest.",
-                       means={"finest": ("mean over seeds at the finest spacing", "")})
+WALL_ORDERS = Table.of("wall_orders", "maker points", "order order_err finest finest_err", **ORDER)
 
 ALL = (CONTINUUM, LATTICE, EXPONENTIAL, NUMBERS, EQUATIONS, ORDERS, FRICTION, ONE_KERNEL, GROWTH,
        GROWTH_MEANS, EULER, NESTED_GROWTH, WAVES, COEFFICIENTS, TRANSPORT_ORDERS, SHEAR, SHEAR_MEANS,
@@ -106,6 +103,7 @@ LEAST = 3           # least number of sizes for an order
 SHORTEST = 16       # least wavelength for an order, in spacings: (h/lambda)^4 is 2 % of the error there
 NORMS = ["rms", "largest"]
 ROUND_OFF = 1e-10   # of sums
+ERRORS = ["closure", "linear", "divergence", "gradient", "laplacian"]
 NOTHING = Measured(np.nan, np.nan)
 
 
@@ -122,14 +120,21 @@ def groups(rows: pd.DataFrame, table: Table, by: str) -> Iterator[tuple[Row, pd.
         yield dict(zip(key, values, strict=True)), group
 
 
+def order(group: pd.DataFrame, size: str) -> Measured:
+    """Order of errors in 1/size; none from too few sizes or round-off.
+
+    All runs are in one fit, as three runs of a size estimate scatter badly.
+    """
+    told = group[size].nunique() >= LEAST and (group["error"].abs() > ROUND_OFF).all()
+    return power_law(1/group[size], group["error"]).slope if told else NOTHING
+
+
 def orders(rows: pd.DataFrame) -> Iterator[Row]:
     """One row per term: the order of its error, and its projection in the limit of zero spacing."""
     for key, group in groups(rows, ORDERS, "cells"):
         if len(group) >= LEAST:
-            a = 1/group["cells"].to_numpy()
-            order = power_law(a, group["error"]).slope
-            limit = extrapolated(a, group["ratio"].to_numpy())
-            yield key | with_errors(order=order, ratio=limit)
+            limit = extrapolated(1/group["cells"].to_numpy(), group["ratio"].to_numpy())
+            yield key | with_errors(order=order(group, "cells"), ratio=limit)
 
 
 def extrapolated(a: np.ndarray, values: np.ndarray) -> Measured:
@@ -144,13 +149,6 @@ def at_zero(x: np.ndarray) -> np.ndarray:
     return np.linalg.inv(np.vander(x))[-1]
 
 
-def growth_means(rows: pd.DataFrame) -> Iterator[Row]:
-    """Growth rates: means over sets of points, and the largest of all sets."""
-    largest = rows.groupby(list(GROWTH_MEANS.key))["rate"].max()
-    for mean, rate in zip(seed_means(rows, GROWTH_MEANS.key, ("rate", "closure")), largest, strict=True):
-        yield mean | {"largest": rate}
-
-
 def coefficients(waves: pd.DataFrame) -> Iterator[Row]:
     """One row per wave, means over sets of points; errors of the runs or scatter of the sets: the larger."""
     for mean in seed_means(waves, [*COEFFICIENTS.key, "continuum"], ["measured"]):
@@ -163,9 +161,8 @@ def transport_orders(waves: pd.DataFrame) -> Iterator[Row]:
     rows = pd.DataFrame(coefficients(waves)).query("wavelength >= @SHORTEST")
     for key, group in groups(rows, TRANSPORT_ORDERS, "wavelength"):
         sure = group[group["error"].abs() > group["error_err"]]
-        order = power_law(1/sure["wavelength"], sure["error"]).slope if len(sure) >= LEAST else NOTHING
         limit = endless(*group[["wavelength", "error", "error_err"]].to_numpy(float).T)
-        yield key | with_errors(order=order, long=limit)
+        yield key | with_errors(order=order(sure, "wavelength"), long=limit)
 
 
 def endless(length: np.ndarray, error: np.ndarray, err: np.ndarray) -> Measured:
@@ -181,40 +178,37 @@ def endless(length: np.ndarray, error: np.ndarray, err: np.ndarray) -> Measured:
     return Measured(value, change + np.linalg.norm(three*err[-3:]))
 
 
-def shear_means(rows: pd.DataFrame) -> Iterator[Row]:
-    """Errors of shear flows: means over sets of points."""
-    return seed_means(rows, SHEAR_MEANS.key, NORMS)
-
-
 def shear_orders(rows: pd.DataFrame) -> Iterator[Row]:
-    """Orders of these errors in 1/rows, all runs in one fit: three runs of a size estimate scatter badly."""
+    """Orders of errors of shear flows in 1/rows."""
     errors = rows.melt(["flow", "points", "time", "rows"], NORMS, "norm", "error")
     for key, group in groups(errors, SHEAR_ORDERS, "rows"):
-        if group["rows"].nunique() >= LEAST:
-            yield key | with_errors(order=power_law(1/group["rows"], group["error"]).slope)
+        yield key | with_errors(order=order(group, "rows"))
 
 
-ERRORS = ["closure", "linear", "deviator", "divergence", "gradient", "laplacian"]
+def maker_orders(rows: pd.DataFrame) -> Iterator[Row]:
+    """Orders of makers' errors in 1/cells, means at the finest."""
+    errors = rows.melt(["maker", "points", "cells"], ERRORS, "quantity", "error")
+    return in_cells(errors, MAKER_ORDERS)
 
 
 def wall_orders(rows: pd.DataFrame) -> Iterator[Row]:
-    """Orders of the errors of heat through plates."""
-    for row in maker_orders(rows, ["wall"]):
-        yield {name: value for name, value in row.items() if name != "quantity"}
+    """The same of heat through plates."""
+    return in_cells(rows.rename(columns={"wall": "error"}), WALL_ORDERS)
 
 
-def maker_orders(rows: pd.DataFrame, quantities: list[str] = ERRORS) -> Iterator[Row]:
-    """Orders of makers' errors in 1/cells, all runs in one fit; round-off has none. Means at the finest."""
-    errors = rows.melt(["maker", "points", "cells"], quantities, "quantity", "error")
-    for key, group in groups(errors, MAKER_ORDERS, "cells"):
-        finest = combine([(error, 0.0) for error in group["error"][group["cells"] == group["cells"].max()]])
-        told = group["cells"].nunique() >= LEAST and (group["error"] > ROUND_OFF).all()
-        order = power_law(1/group["cells"], group["error"]).slope if told else NOTHING
-        yield key | with_errors(order=order, finest=finest)
+def in_cells(errors: pd.DataFrame, table: Table) -> Iterator[Row]:
+    """Orders of errors in 1/cells, and means over seeds at the finest spacing."""
+    for key, group in groups(errors, table, "cells"):
+        finest = group[group["cells"] == group["cells"].max()]
+        mean = combine([(error, 0.0) for error in finest["error"]])
+        yield key | with_errors(order=order(group, "cells"), finest=mean)
 
 
 #: derived table -> its source, and the function that derives it
-DERIVED = {"orders": ("equations", orders), "growth_means": ("growth", growth_means),
-           "coefficients": ("waves", coefficients), "transport_orders": ("waves", transport_orders),
-           "shear_means": ("shear", shear_means), "shear_orders": ("shear", shear_orders),
-           "maker_orders": ("makers", maker_orders), "wall_orders": ("wall_heat", wall_orders)}
+DERIVED: dict[str, tuple[str, Callable[[pd.DataFrame], Iterable[Row]]]] = {
+    "orders": ("equations", orders),
+    "growth_means": ("growth", partial(seed_means, by=GROWTH_MEANS.key, columns=["rate", "closure"])),
+    "coefficients": ("waves", coefficients), "transport_orders": ("waves", transport_orders),
+    "shear_means": ("shear", partial(seed_means, by=SHEAR_MEANS.key, columns=NORMS)),
+    "shear_orders": ("shear", shear_orders),
+    "maker_orders": ("makers", maker_orders), "wall_orders": ("wall_heat", wall_orders)}

@@ -1,4 +1,4 @@
-"""Transport in time: decaying waves, shear flows between plates    [RR98 Eqs 34-38, 51, Sec. III A]
+"""Transport in time: decaying waves, Euler's step, shear flows    [RR98 Eqs 34-38, 40, 51, Sec. III A]
 
 Waves along x: a wave is given to density, velocity along x, temperature, velocity across x, one at a time.
 RK4 advances the full equations. The amplitudes after times t, 2 t, 3 t form propagators U_1, U_2, U_3 (4, 4).
@@ -30,13 +30,13 @@ from particles.integrators import RK4
 from particles.limits import limit_of
 from particles.run import Plan, run
 from particles.threads import Threads
-from particles.weights import Lucy
+from particles.weights import Lucy, WendlandC2
 from studies.build.setting import positions
 from studies.build.symbols import lattice_waves
 from studies.kit.case import Case, Report
 from studies.kit.stats import Measured
 from studies.kit.table import Row
-from studies.operators.scheme import PointSet
+from studies.operators.points import PointSet
 
 AMPLITUDE = 1e-5    # of waves: nonlinear feedback is about its square, round-off over it is 1e-11
 STEPS = 10          # least steps in a radian of sound: RK4's relative error of a rate is 5 (1/10)^4/120
@@ -45,6 +45,9 @@ MARGIN = 1.25       # stability limit over the time step
 ETA, KAPPA = 0.3, 0.4
 GAS = LinearGas(0.3, 0.2, 0.4)
 LONG = 5000.0       # wavelength in spacings, infinite to four digits
+MODES = 32          # spacings, of which waves in Euler's steps are parts
+C2 = 2.0            # gamma P/rho of the ideal gas at rho = T = 1
+NULL = 1e-6         # eigenvalues below this belong to waves that the operators do not see
 
 LAW = ConstEta(0.5, 0.5)                # of shear flows
 TIMES = (0.02, 0.05, 0.1, 0.2, 0.5)     # in height^2/nu
@@ -55,19 +58,20 @@ JITTER = 0.2        # spacings, of points between plates
 OF_LIMIT = 0.5      # time step over its stability limit: RK4's own errors are (0.02)^4 of a decay
 
 
-# --- waves --------------------------------------------------------------------------------------------------
-
-
 def propagators(dih: Dih, x: np.ndarray, k: float, time: float, phases: tuple[float, ...]) -> np.ndarray:
     """U (2 or 3, 4, 4) of amplitudes (rho, u, T, v) after `time`, twice and off a lattice three times that.
 
     phases : (0,) if all places are alike, else (0, pi/2), for real and imaginary part of exp(ikx).
     """
-    place = k*x[:, 0]
-    steps = max(STEPS, ceil(MARGIN*time/step_limit(dih)))
+    place, (sound, spread) = k*x[:, 0], dih.edges.fastest
+    limit = 1/(np.sqrt(2)*sound/2.82 + (ETA + dih.zeta + KAPPA)*spread/2.78)       # of RK4, at rho = T = 1
+    steps = max(STEPS, ceil(MARGIN*time/limit))
     U = np.zeros((1 + len(phases), 4, 4), complex)
     for field, phase in product(range(4), phases):
-        state = start(dih, AMPLITUDE*np.cos(place - phase), field)
+        fields = np.outer([1.0, 0.0, 1.0, 0.0], np.ones_like(place))
+        fields[field] += AMPLITUDE*np.cos(place - phase)
+        rho, u, T, v = fields
+        state = dih.state(rho, np.stack([u, v], axis=1), T)
         integrator = RK4(state.shape, Threads(1))
         for part in U:
             for _ in range(steps):
@@ -76,26 +80,12 @@ def propagators(dih: Dih, x: np.ndarray, k: float, time: float, phases: tuple[fl
     return U/AMPLITUDE
 
 
-def start(dih: Dih, wave: np.ndarray, field: int) -> np.ndarray:
-    """State at rest, rho = T = 1, with a wave in one of (rho, u, T, v)."""
-    fields = np.outer([1.0, 0.0, 1.0, 0.0], np.ones_like(wave))
-    fields[field] += wave
-    rho, u, T, v = fields
-    return dih.state(rho, np.stack([u, v], axis=1), T)
-
-
 def amplitudes(dih: Dih, state: np.ndarray, place: np.ndarray) -> np.ndarray:
     """Fourier amplitudes of exp(ikx) in (rho, u, T, v)."""
     flow, V = dih.flow(state), dih.edges.V
     u, v = flow.v.T
     fields = np.stack([flow.rho - 1, u, flow.T - 1, v])
     return fields@(V*np.exp(-1j*place))/V.sum()
-
-
-def step_limit(dih: Dih) -> float:
-    """Stable step of RK4, from the fastest sound and diffusion over the edges, at rho = T = 1."""
-    sound, spread = dih.edges.fastest
-    return 1/(np.sqrt(2)*sound/2.82 + (ETA + dih.zeta + KAPPA)*spread/2.78)
 
 
 def measured(dih: Dih, x: np.ndarray, k: float, phases: tuple[float, ...]) -> dict[str, Measured]:
@@ -124,17 +114,13 @@ class Decay(PointSet, table="waves", same="transport maker h points zeta wavelen
     def wavelength(self) -> int:
         return self.counts[0]
 
-    @property
-    def phases(self) -> tuple[float, ...]:
-        """Phases of the waves: one is enough on a lattice, where all places are alike."""
-        return (0.0,) if self.points.name == "lattice" else (0.0, np.pi/2)
-
     def rows_of(self, points: Points, edges: Edges) -> Iterator[Row]:
-        """One row per quantity."""
+        """One row per quantity. One phase is enough on a lattice, where all places are alike."""
         k, way = 2*np.pi/self.wavelength, WAYS[self.transport]
         dih = Dih(edges=edges, eos=IdealGas(), law=ConstEta(ETA, KAPPA), zeta=self.zeta, transport=way)
         exact = quantities(continuum(LinearGas(ETA, self.zeta, KAPPA), k), k)
-        for name, (value, err) in measured(dih, points.x, k, self.phases).items():
+        phases = (0.0,) if self.points.name == "lattice" else (0.0, np.pi/2)
+        for name, (value, err) in measured(dih, points.x, k, phases).items():
             yield {"quantity": name, "measured": value, "measured_err": err, "continuum": exact[name]}
 
 
@@ -144,6 +130,26 @@ def of_edges() -> dict[str, float]:
     values = quantities(lattice_waves(GAS, Lucy.of(h=8.0), np.array([k, 0.0]), nested=False), k)
     shear, bulk = values["viscosity"]/GAS.eta - 1, values["bulk viscosity"]/GAS.zeta - 1
     return {"viscosities, h = 8 a": max(abs(shear), abs(bulk))}
+
+
+def euler_limit(eigenvalues: np.ndarray) -> float:
+    """Largest dt with |1 + lambda dt| <= 1 for all eigenvalues but null modes; 0 if a mode grows."""
+    seen = eigenvalues[np.abs(eigenvalues) > NULL]
+    return np.min(np.maximum(-2*seen.real/np.abs(seen)**2, 0), initial=np.inf)
+
+
+class EulerLimit(Case, table="euler"):
+    """Largest stable step of Eq. 40 in the 2D gas, nested transport, for waves along an axis of a lattice."""
+    gas: LinearGas
+
+    def measure(self, report: Report) -> Iterator[Row]:
+        eta, zeta, kappa = self.gas
+        key = {**self.gas._asdict(), "predicted": (eta + zeta + kappa/2)/C2}
+        for mode in range(1, MODES//2 + 1):
+            k = 2*np.pi*mode/MODES
+            waves = lattice_waves(self.gas, WendlandC2.of(h=3.0), np.array([k, 0.0]), nested=True)
+            rates = np.append(np.linalg.eigvals(waves.matrix), -waves.shear)
+            yield key | {"mode": mode, "k": k, "limit": euler_limit(rates)}
 
 
 # --- shear flows --------------------------------------------------------------------------------------------

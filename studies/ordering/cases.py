@@ -17,8 +17,8 @@ H = (1.2, 1.5, 2.0, 2.5, 3.0, 4.0, 6.0)
 #: further ranges on a lattice, where each has its own factor in the error: one every half spacing
 BETWEEN = (3.5, 4.5, 5.0, 5.5)
 SEEDS = (1, 2, 3)
-#: gradients with wide weights: range -> further seeds, where three do not decide
-MORE = {5.0: range(4, 21), 6.0: range(4, 10)}
+#: gradients with wide weights: range -> seeds besides those above, where three do not decide
+WIDE = {5.0: range(1, 21), 6.0: range(4, 10)}
 RANGES = H[:-1]     # ranges of the flows
 IRREGULAR = ("jittered-0.3", "random", "relaxed")
 #: irregular points with triangles that end on rows of points on the plates
@@ -38,10 +38,7 @@ def cases(size: str) -> list[Case]:
     if size == "quick":
         waves = {"lattice": (16, 32), "jittered-0.3": (16, 32)}
         return [*surface(waves), *forms((1.2, 3.0), ("jittered-0.3",)), *quick_flows()]
-    wide = (runs.GradientForms(disorder=DISORDERS["jittered-0.3"], h=h, wavelength=WAVE, seed=seed)
-            for h, seeds in MORE.items() for seed in seeds)
-    return [*surface(WAVES), *forms(H, ("lattice", *IRREGULAR)), *forms((5.0,), IRREGULAR[:1]), *wide,
-            *vortices(), *layers()]
+    return [*surface(WAVES), *forms(H, ("lattice", *IRREGULAR)), *wide_forms(), *vortices(), *layers()]
 
 
 def surface(waves: Mapping[str, Sequence[int]]) -> Iterator[Case]:
@@ -55,24 +52,26 @@ def surface(waves: Mapping[str, Sequence[int]]) -> Iterator[Case]:
             yield from on_points(runs.OperatorErrors, "plain", 1.2, disorder, [WAVE])
 
 
-def on_points(case: type[runs.OnPoints], maker: str, h: float, disorder: str,
-              wavelengths: Sequence[int]) -> Iterator[runs.OnPoints]:
-    """Cases of all wavelengths and seeds on a kind of points. h : 0 for edges without a weight."""
-    for wavelength, seed in product(wavelengths, seeds_of(disorder)):
-        yield case(make=MAKERS[maker], h=h, disorder=DISORDERS[disorder], wavelength=wavelength, seed=seed)
+def on_points(case: type[runs.OnPoints], maker: str, h: float, disorder: str, wavelengths: Sequence[int],
+              seeds: Sequence[int] = SEEDS) -> Iterator[runs.OnPoints]:
+    """Cases of all wavelengths and seeds on a kind of points. h : 0 for edges without a weight.
 
-
-def seeds_of(disorder: str) -> Sequence[int]:
-    """Seeds of a kind of points; a lattice has one, since all are alike."""
-    return SEEDS[:1] if disorder == "lattice" else SEEDS
+    A lattice has one seed, since all are alike.
+    """
+    for wavelength, seed in product(wavelengths, seeds[:1] if disorder == "lattice" else seeds):
+        yield case(maker=MAKERS[maker], h=h, points=DISORDERS[disorder], wavelength=wavelength, seed=seed)
 
 
 def forms(ranges: Sequence[float], kinds: Sequence[str]) -> Iterator[Case]:
     """Gradients as printed: all ranges at one wavelength, h = 3 a at all wavelengths."""
-    for kind in kinds:
-        places = {*product(ranges, [WAVE]), *product([3.0], WAVES[kind])}
-        for (h, wavelength), seed in product(sorted(places), seeds_of(kind)):
-            yield runs.GradientForms(disorder=DISORDERS[kind], h=h, wavelength=wavelength, seed=seed)
+    for kind, h in product(kinds, ranges):
+        yield from on_points(runs.GradientForms, "plain", h, kind, WAVES[kind] if h == 3 else [WAVE])
+
+
+def wide_forms() -> Iterator[Case]:
+    """The same with wide weights and more seeds."""
+    for h, seeds in WIDE.items():
+        yield from on_points(runs.GradientForms, "plain", h, "jittered-0.3", [WAVE], seeds)
 
 
 def vortices() -> Iterator[Case]:

@@ -6,12 +6,12 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from particles.integral.edge_makers import MAKERS
+from studies.build.setting import DISORDERS
 from studies.kit.figure import Drawing, Drawings, bars, below, figure, logarithmic, look
 from studies.ordering.cases import IRREGULAR, ROWS
 from studies.ordering.tables import WANTED, WIDTH
 
-KINDS = ("lattice", "jittered-0.1", "jittered-0.3", "random", "relaxed")
-MAKERS = ("printed", "plain", "renormalised", "closed", "exact", "delaunay")
 RANGES = (1.2, 2, 3, 4, 6)
 SIZES = (16, 24, 32, 48, 64)
 NAMES = {"taylor-green": "Taylor-Green, velocity", "convection": "Rayleigh-Benard, $|K/K_{grid} - 1|$"}
@@ -23,24 +23,19 @@ MADE = ("delaunay", "exact", "closed", "renormalised")
 def surface(means: pd.DataFrame) -> Figure:
     """Errors of gradient and Laplacian of waves over the range of the weight: must a < r0 < lambda hold?"""
     rows = means.query("maker == 'renormalised'")
-    kinds = [kind for kind in KINDS if kind in set(rows.points)]
+    kinds = [kind for kind in DISORDERS if kind in set(rows.points)]
     page, panels = figure(2, len(kinds), width=2.4, height=3.0, sharex=True, sharey="row", squeeze=False)
-    wavelengths = sorted(set(rows.wavelength))
-    curves = {}
     for line, operator, name in zip(panels, ("gradient", "laplacian"), ("grad", "Laplacian")):
         for axes, kind in zip(line, kinds):
-            for wavelength, group in rows[rows.points == kind].groupby("wavelength"):
-                number = wavelengths.index(wavelength)
-                bars(axes, group, "h", operator, number=number, linestyle="-",
+            for number, (wavelength, group) in enumerate(rows.groupby("wavelength")):
+                bars(axes, group[group.points == kind], "h", operator, number=number, linestyle="-",
                      label=rf"$\lambda$ = {wavelength} $a$")
-                curves[number] = axes.containers[-1]
             logarithmic(axes, RANGES)
         line[0].set_ylabel(f"relative rms error of {name}")
     for (upper, lower), kind in zip(panels.T, kinds):
         upper.set_title(kind)
         lower.set_xlabel("range $h/a$")
-    handles = [curve for _, curve in sorted(curves.items())]
-    page.legend(handles=handles, loc="outside lower center", ncols=len(curves))
+    page.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=number + 1)
     page.suptitle("On a lattice a short range is best, off it a range of several spacings\n"
                   "Lucy's weight, renormalised; bars: 95 % over point sets")
     return page
@@ -106,28 +101,22 @@ def over_range(flows: pd.DataFrame) -> Figure:
 
 
 def over_points(flows: pd.DataFrame) -> Figure:
-    """Errors of whole flows over the points of a wavelength or height: lattices and irregular points."""
-    page, panels = figure(2, 3, width=3.9, height=4.1)
-    first, *others, layer, irregular = panels.ravel()
-    vortices = flows.query("flow == 'taylor-green'")
-    layers = flows.query("flow == 'convection'")
-    for axes, rows in ((first, vortices), (layer, layers)):
-        curves(axes, rows.query("points == 'lattice'"), "h", "resolution", "$h = {:g} a$")
-    decorate(first, "taylor-green", "lattice", SIZES)
-    decorate(layer, "convection", "lattice", ROWS[:4])
-    made = vortices.query("h in (0, 3)")
-    for axes, kind in zip(others, IRREGULAR):
+    """Errors of whole flows over the points of a wavelength or height, on irregular points."""
+    page, panels = figure(2, 2, width=3.9, height=4.1)
+    *vortices, layers = panels.ravel()
+    made = flows.query("flow == 'taylor-green' and h in (0, 3)")
+    for axes, kind in zip(vortices, IRREGULAR):
         rows = made[made.points == kind]
         for number, maker in enumerate(MADE):
             label = maker + ", 3 $a$"*(maker != "delaunay")
             curve(axes, rows[rows.maker == maker], "resolution", number, label)
         decorate(axes, "taylor-green", kind, SIZES)
-    triangles = layers.query("maker == 'delaunay'")
-    curves(irregular, triangles, "points", "resolution", "{}, delaunay")
-    decorate(irregular, "convection", "irregular", ROWS)
+    triangles = flows.query("flow == 'convection' and maker == 'delaunay'")
+    curves(layers, triangles, "points", "resolution", "{}, delaunay")
+    decorate(layers, "convection", "irregular", ROWS)
     for axes in panels[:, 0]:
         axes.set_ylabel("relative error")
-    page.suptitle("Errors fall as rows$^{-2}$ on a lattice and on Delaunay edges, not on other edges\n"
+    page.suptitle("Errors fall as rows$^{-2}$ on Delaunay edges, not on other edges\n"
                   "dotted: 1 %; hollow: K too low; bars: 95 % over point sets; lost: a set diverged")
     return page
 

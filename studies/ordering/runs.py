@@ -1,8 +1,8 @@
 """Errors of gradients of waves, of a vortex and of convection on fixed points    [RR98 Eqs 1-6, 28-38, 45]
 
-Weights are Lucy's, their range h in spacings. make : of `particles.integral.edge_makers.MAKERS`.
+Weights are Lucy's, their range h in spacings. maker : of `particles.integral.edge_makers.MAKERS`.
 """
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from math import ceil
 from pathlib import Path
@@ -13,7 +13,7 @@ import numpy as np
 from continuum.exact.vortex import Vortex, solved, velocities
 from continuum.fluid import ConstEta, IdealGas
 from continuum.scene import RayleighBenard
-from particles.integral.edge_makers import MAKERS, plain
+from particles.integral.edge_makers import MAKERS
 from particles.integral.edges import NONE_BEYOND, Edges
 from particles.integral.layer import Layer
 from particles.integral.points import Points
@@ -25,6 +25,7 @@ from studies.build.fixed import Scheme, hard_core, settled
 from studies.build.measure import ended, followed, rolls
 from studies.build.setting import BREADTH, Disorder, positions
 from studies.kit.case import Case, Outcome, Report
+from studies.kit.table import Row
 
 #: how a gradient is taken over the edges
 FORMS = ("single", "sum", "difference")
@@ -37,30 +38,26 @@ NOTHING = {**dict.fromkeys(("ke", "ke_err", "nu", "nu_err", "exchanges"), np.nan
            "converged": False}
 
 
-@dataclass(frozen=True, kw_only=True)
-class OnPoints(Case):
+class OnPoints(Case, same="maker h points wavelength seed"):
     """Errors of a flow with edges on one set of points; nan where there are no such edges."""
-    make: Callable[[Points, Any], Edges]
+    maker: Callable[[Points, Any], Edges]
     h: float
-    disorder: Disorder
+    points: Disorder
     wavelength: int
     seed: int = 1
 
-    table: ClassVar[str]
     numbers: ClassVar[tuple[str, ...]]
     breadth: ClassVar[int] = 0          # of the points, in spacings; 0: a wavelength
 
-    def run(self, report: Report, folder: Path) -> Outcome:
+    def measure(self, report: Report) -> Iterator[Row]:
         counts = self.wavelength, self.breadth or self.wavelength
-        points = self.disorder.make(counts, self.disorder.size, self.seed)
-        key = {"maker": self.make.__name__, "h": self.h, "points": self.disorder.name,
-               "wavelength": self.wavelength, "seed": self.seed}
+        points = self.points.make(counts, self.points.size, self.seed)
         try:
-            edges = self.make(points, Lucy.of(h=self.h) if self.h else None)
+            edges = self.maker(points, Lucy.of(h=self.h) if self.h else None)
         except ArithmeticError:     # no such edges exist on these points: that is a result
-            return Outcome({self.table: [key | dict.fromkeys(self.numbers, np.nan)]})
-        values = dict(zip(self.numbers, self.measured(points, edges, report), strict=True))
-        return Outcome({self.table: [key | values]})
+            yield dict.fromkeys(self.numbers, np.nan)
+            return
+        yield dict(zip(self.numbers, self.measured(points, edges, report), strict=True))
 
     def measured(self, points: Points, edges: Edges, report: Report) -> Sequence[float]:
         """Values of the columns `numbers`."""
@@ -70,22 +67,16 @@ class OnPoints(Case):
 # --- waves --------------------------------------------------------------------------------------------------
 
 
-class OperatorErrors(OnPoints):
+class OperatorErrors(OnPoints, table="operators"):
     """Relative rms errors of gradient and Laplacian of a plane wave along x, in 2D."""
-    table = "operators"
     numbers = ("gradient", "laplacian", "closure", "linear")
     breadth = BREADTH
 
     def measured(self, points: Points, edges: Edges, report: Report) -> Sequence[float]:
-        gradient, laplacian = wave_errors(edges, points.x[:, 0], 2*np.pi/self.wavelength)
-        return gradient, laplacian, np.abs(edges.closure).max(), np.abs(edges.linear - np.eye(2)).max()
-
-
-def wave_errors(edges: Edges, x: np.ndarray, k: float) -> tuple[float, float]:
-    """Rms errors of gradient and Laplacian of a wave at both phases, over the rms of the true ones."""
-    waves = np.sin(k*x + PHASES)
-    squares = [(edges.lap(f) + k**2*f)**2 for f in waves]
-    return form_error(edges, edges.G, x, k), relative(edges.V, squares)/k**2
+        x, k = points.x[:, 0], 2*np.pi/self.wavelength
+        bends = [(edges.lap(f) + k**2*f)**2 for f in np.sin(k*x + PHASES)]
+        return (form_error(edges, edges.G, x, k), relative(edges.V, bends)/k**2,
+                np.abs(edges.closure).max(), np.abs(edges.linear - np.eye(2)).max())
 
 
 def relative(V: np.ndarray, squares: Sequence[np.ndarray]) -> float:
@@ -100,48 +91,38 @@ def form_error(edges: Edges, matrices: Sequence[Any], x: np.ndarray, k: float) -
     return relative(edges.V, (along - slopes)**2 + sum(g**2 for g in across))/k
 
 
-def form_errors(edges: Edges, x: np.ndarray, k: float) -> dict[str, float]:
-    """Rms errors of the gradient of sin kx in three forms, over the rms of the true one; both phases.
+def form_errors(edges: Edges, x: np.ndarray, k: float) -> list[float]:
+    """Rms errors of the gradient of sin kx in the three FORMS, over the rms of the true one; both phases.
 
     single : sum_j W_ij V_j e_ji f_j    [Eq. 1, inner sums of Eqs 37, 38]. sum : with f_i + f_j    [Eqs 10-14,
     34-36]. difference : with f_j - f_i. The wave has no mean; one would add to the errors of the first two.
     """
     single = [S/2 for S in edges.areas]
-    errors = [form_error(edges, matrices, x, k) for matrices in (single, edges.D, edges.G)]
-    return dict(zip(FORMS, errors, strict=True))
+    return [form_error(edges, matrices, x, k) for matrices in (single, edges.D, edges.G)]
 
 
-@dataclass(frozen=True, kw_only=True)
-class GradientForms(Case):
-    """Errors of the gradient of a wave along x in three forms, by plain quadrature."""
-    disorder: Disorder
-    h: float
-    wavelength: int
-    seed: int = 1
+class GradientForms(OnPoints, table="brackets", same="h points wavelength seed"):
+    """Errors of the gradient of a wave along x in three forms."""
+    numbers = FORMS
+    breadth = BREADTH
 
-    def run(self, report: Report, folder: Path) -> Outcome:
-        points = self.disorder.make((self.wavelength, BREADTH), self.disorder.size, self.seed)
-        key = {"h": self.h, "points": self.disorder.name, "wavelength": self.wavelength, "seed": self.seed}
-        edges = plain(points, Lucy.of(h=self.h))
-        errors = form_errors(edges, points.x[:, 0], 2*np.pi/self.wavelength)
-        return Outcome({"brackets": [key | errors]})
+    def measured(self, points: Points, edges: Edges, report: Report) -> Sequence[float]:
+        return form_errors(edges, points.x[:, 0], 2*np.pi/self.wavelength)
 
 
 # --- vortices -----------------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, kw_only=True)
-class VortexDecay(OnPoints):
+class VortexDecay(OnPoints, table="vortices"):
     """A decaying Taylor-Green vortex against the gas of its Mach number; h = 0: the maker takes no weight."""
     mach: float = 0.05
 
-    table = "vortices"
     numbers = ("velocity", "exchanges")
 
     @property
     def cost(self) -> float:
         size = self.wavelength/32
-        once = 1.0*(self.make.__name__ == "exact") + 6.0*(self.disorder.name == "relaxed")
+        once = 1.0*(self.maker.__name__ == "exact") + 6.0*(self.points.name == "relaxed")
         return size**3*(0.06*self.h + 0.15)*0.05/self.mach + size**4*once + 0.1
 
     def measured(self, points: Points, edges: Edges, report: Report) -> Sequence[float]:
@@ -151,18 +132,15 @@ class VortexDecay(OnPoints):
         return np.sqrt(squares/of_known), RK4.evaluations*steps*len(edges.i)
 
 
-def begun(vortex: Vortex, points: Points, edges: Edges) -> tuple[Layer, np.ndarray]:
-    """The gas on points, kappa = eta, and its state (4, n) at the start."""
-    gas = Layer(x=points.x, edges=edges, beyond=NONE_BEYOND, eos=IdealGas(),
-                law=ConstEta(vortex.eta, vortex.eta), T_plates=(1.0, 1.0), g=0.0)
+def decayed(vortex: Vortex, points: Points, edges: Edges, report: Report) -> tuple[np.ndarray, float]:
+    """Velocities (n, 2) at the end over the initial speed, and steps of the run; nan where it diverged.
+
+    The conductivity is as large as the viscosity.
+    """
+    method = Layer(x=points.x, edges=edges, beyond=NONE_BEYOND, eos=IdealGas(),
+                   law=ConstEta(vortex.eta, vortex.eta), T_plates=(1.0, 1.0), g=0.0)
     rho = vortex.density(points.x)
-    return gas, gas.state(rho, vortex.velocity(points.x), rho)
-
-
-def decayed(vortex: Vortex, points: Points, edges: Edges,
-            report: Report | None = None) -> tuple[np.ndarray, float]:
-    """Velocities (n, 2) at the end over the initial speed, and steps of the run; nan where it diverged."""
-    method, first = begun(vortex, points, edges)
+    first = method.state(rho, vortex.velocity(points.x), rho)
     steps = ceil(vortex.time/(OF_LIMIT*limit_of(method, first)))
     try:
         last = run(method, first, Plan(dt=vortex.time/steps, steps=steps), report).state

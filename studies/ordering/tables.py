@@ -73,7 +73,7 @@ FLOW_POINT = list(FLOWS.key)
 
 def derive(tables: Tables) -> Rows:
     """Derived rows of the study."""
-    rows = of_flows(tables)
+    rows = of_flows(tables) if "vortices" in tables or "convection" in tables else {}
     if "operators" in tables:
         rows |= of_operators(tables["operators"])
     if "brackets" in tables:
@@ -94,10 +94,10 @@ def of_operators(rows: pd.DataFrame) -> dict[str, Any]:
     means = list(seed_means(rows.dropna(subset="gradient"), MEANS.key, operators))
     errors = pd.DataFrame(means).melt(MEANS.key, operators, "operator", "error")
     errors = at_fixed(errors.assign(ratio=errors.h/errors.wavelength), "wavelength")
-    floors = errors.groupby(key).error.min().rename("floor")
-    known = slopes(errors, key, "ratio", WAVES)
-    found = pd.DataFrame(known, columns=[*key, "slope", "slope_err"]).join(floors, key)
-    return {"means": means, "slopes": found.to_dict("records")}
+    floors = errors.groupby(key).error.min()
+    known = [row | {"floor": floors[tuple(row[name] for name in key)]}
+             for row in slopes(errors, key, "ratio", WAVES)]
+    return {"means": means, "slopes": known}
 
 
 def at_fixed(errors: pd.DataFrame, resolution: str) -> pd.DataFrame:
@@ -124,8 +124,6 @@ def of_flows(tables: Tables) -> dict[str, Any]:
         parts.append(vortices.assign(flow="taylor-green", error_err=0.0))
     if "convection" in tables:
         parts.append(convection(tables["convection"], ke.value))
-    if not parts:
-        return {}
     runs = pd.concat(parts, ignore_index=True)
     means = flow_means(runs)
     return {"reference": [{"flow": "convection", **with_errors(ke=ke)}], "flows": means.to_dict("records"),
@@ -171,20 +169,18 @@ def cheapest(means: pd.DataFrame) -> Iterator[Row]:
 
 
 def needed(group: pd.DataFrame) -> dict[str, float]:
-    """Resolution and exchanges for 1 % in one series, errors without sign; nan where 1 % was not reached."""
+    """Resolution and exchanges for 1 % in one series, by power laws between a row above and one below it.
+
+    Errors have no sign. There are no numbers where 1 % was not reached.
+    """
     above = np.flatnonzero(~(group.error <= WANTED) | (group.lost > 0))
     if not len(above):
         first = group.iloc[0]
         return {"needed": first.resolution, "needed_err": np.nan, "exchanges": first.exchanges, "bound": 1}
     pair = group.iloc[above[-1]:above[-1] + 2]
     if len(pair) < 2 or not np.isfinite(pair.error.iloc[0]):
-        return dict.fromkeys(("needed", "needed_err", "exchanges"), np.nan) | {"bound": 0}
-    return at_level(pair) | {"bound": 0}
-
-
-def at_level(pair: pd.DataFrame) -> dict[str, float]:
-    """Resolution and exchanges for 1 %, by power laws between a row above and one below it."""
+        return {"bound": 0}
     pair = pair.assign(resolution_err=0.0, exchanges_err=0.0)
     resolution, half = crossing(pair, "resolution", WANTED)
     exchanges, _ = crossing(pair, "exchanges", WANTED)
-    return {"needed": resolution, "needed_err": resolution*half, "exchanges": exchanges}
+    return {"needed": resolution, "needed_err": resolution*half, "exchanges": exchanges, "bound": 0}
