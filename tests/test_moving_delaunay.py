@@ -12,10 +12,11 @@ from continuum.scene import RayleighBenard
 from continuum.sides import Periodic, Plate, Sliding
 from particles.integral import moving_delaunay
 from particles.integral import rings as rings_module
-from particles.integral.bodies import held, with_disc
+from particles.integral.bodies import CLEAR, held, on_circle, together, with_disc
 from particles.integral.flips import flips
 from particles.integral.march import REAL
 from particles.integral.moving_delaunay import MovingDelaunay
+from particles.integral.points import lattice
 from particles.integral.rings import geometry, rings, table_of
 from particles.integral.triangulation import outside, triangles
 from particles.limits import limit_of
@@ -228,6 +229,37 @@ def test_a_triangle_that_turns_over_ends_a_run_with_the_place_and_the_way_out():
     method, start, dt = ready(RayleighBenard(ra=1e6, L=8.0), "moving-delaunay")
     with pytest.raises(Divergence, match=r"a triangle of the point at .* has turned over.*shift above 0"):
         run(replace(method, shift=0.0), start, Plan(dt=dt, steps=5000))
+
+
+def between_circles(rows, eta=0.5, speed=0.05):
+    """A fluid at rest between points held on two circles; the inner ones turn. Exact: v = A r + B/r."""
+    radii, at = np.array([0.18, 0.42])*rows, lattice((rows, rows)).x
+    off = (np.abs(np.hypot(*at.T)[:, None] - radii) > CLEAR).all(axis=1)
+    x = np.concatenate([*map(on_circle, radii), at[off]])
+    r = np.hypot(*x.T)
+    turned, fixed = np.flatnonzero(r < radii[0] + 1e-9), np.flatnonzero(r > radii[1] - 1e-9)
+    v = speed/radii[0]*np.stack([-x[turned, 1], x[turned, 0]], axis=1)
+    method = MovingDelaunay(x=x, rings=rings(x, (rows, rows), TORUS), eos=IdealGas(), law=ConstEta(eta, eta),
+                            held=together(held(turned, T=1.0)._replace(v=v), held(fixed, T=1.0)))
+    torque = 4*np.pi*eta*speed*radii[0]/(1 - (radii[0]/radii[1])**2)
+    return method, torque, 9*(radii[1] - radii[0])**2/(np.pi**2*eta)
+
+
+def test_the_torque_between_circles_is_of_second_order():
+    """Points stay held on both, and what one gains the other loses."""
+    errors = []
+    for rows in (24, 48):
+        method, exact, time = between_circles(rows)
+        state = method.state(1.0, np.zeros_like(method.x), 1.0)
+        dt, sums = 0.8*limit_of(method, state), method.start(len(method.x), Threads(1))
+        sums.march(state, dt, round(time/dt))
+        sums.look_at(state)
+        (x, y), (Fx, Fy, _) = method.x[method.held.which].T, sums.received.T
+        inner, outer = np.bincount(method.held.body, x*Fy - y*Fx)/exact
+        assert sums.flips > 0
+        assert -inner == pytest.approx(outer, abs=0.002)     # e^-9 of the start is left
+        errors.append(abs(inner + 1))
+    assert errors[1] < 0.005 and np.log2(errors[0]/errors[1]) > 1.5
 
 
 def test_an_insulated_side_that_slides_does_its_work_and_no_energy_is_lost():
