@@ -140,7 +140,7 @@ def _check_start(method, start: np.ndarray, plan: Plan) -> None:
                          "the box is centred on the origin; move them inside")
     limit = _limit(method, start)
     if plan.dt > limit:
-        raise ValueError(f"dt = {plan.dt:g} is above the stability limit {limit:.3g} of RK4 for these "
+        raise ValueError(f"dt = {plan.dt:g} is above the stability limit {limit:.3g} for these "
                          f"particles, {RANDOM*limit:.2g} where they lie at random; the studies take "
                          f"{STUDIES*limit:.2g}, because errors at plates grow with dt")
 
@@ -152,7 +152,7 @@ def _limit(method, start: np.ndarray) -> float:
     except FloatingPointError as error:
         raise ValueError(f"the particles at the start are no fluid: {error}") from error
     if not limit > 0:
-        raise ValueError(f"the particles at the start have no stable step: the limit of RK4 is {limit}; look "
+        raise ValueError(f"the particles at the start have no stable step: the limit is {limit}; look "
                          "for densities, temperatures or viscosities that are not positive and finite")
     return limit
 

@@ -67,7 +67,6 @@ def test_questions_are_calculated_with():
 def test_several_questions_in_one():
     a, b = (one("rows", "y", n=n) for n in (2, 8))
     assert ask.largest_of(a, b)(TABLES) == almost(64, 0.3)
-    assert ask.farthest_of(a, b, centre=65.0)(TABLES) == almost(4, 0.3)
     assert ask.largest_per("name", ask.spread("rows", "exact"))(TABLES) == almost(8)
     farthest = ask.farthest_per("name", ask.total("rows", "y"), centre=0.0)
     assert farthest(TABLES) == almost(80, math.hypot(0.4, 0.2))

@@ -205,7 +205,7 @@ def test_a_start_without_a_stable_step_is_refused(found, monkeypatch):
     method, start = small()
     monkeypatch.setattr("particles.run.limit_of", lambda method, start: found)
     with pytest.raises(ValueError,
-                       match=rf"no stable step: the limit of RK4 is {found}; look for densities"):
+                       match=rf"no stable step: the limit is {found}; look for densities"):
         run(method, start, PLAN)
 
 

@@ -168,11 +168,6 @@ def largest_of(*values: Value) -> Value:
     return one_of(top, values)
 
 
-def farthest_of(*values: Value, centre: float = 1.0) -> Value:
-    """The one of several that is farthest from `centre`, with its own error."""
-    return one_of(farthest_from(centre), values)
-
-
 def largest_per(columns: str | Sequence[str], value: Value) -> Value:
     """The largest of what a question gives for each value of some columns, with the largest error."""
     return one_per(top, columns, value)
