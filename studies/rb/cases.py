@@ -42,7 +42,7 @@ GRIDS, COARSE = (24, 32, 48), (12, 16, 24)
 
 def spam(ra: float, rows: int, seeds=SEEDS, variant: Variant = PRINTED, keep="", t_end=90.0, mean_from=40.0,
          **scene) -> Iterator[SpamRun]:
-    """The same point for several seeds; only the first keeps its fields or particles, the others K(t)."""
+    """One point with several seeds. The first seed keeps fields or particles, the others keep K(t)."""
     where = RayleighBenard(ra=ra, L=float(rows), **(LAYER | scene))
     for seed in seeds:
         yield SpamRun(scene=where, variant=variant, seed=seed, t_end=t_end, mean_from=mean_from,
@@ -59,7 +59,7 @@ def gas(ra: float, sizes: tuple[int, ...], keep="", form="flux-form", longest=60
 
 
 def seen_by(scene: RayleighBenard) -> Iterator[Smoothing]:
-    """The printed weight at all numbers of particles, those of the variants where these are run."""
+    """The printed weight with all rows that are run; weights of variants at the Ra where these are run."""
     in_box = isinstance(scene.sides, Walls)
     for rows in (20, 28, 40) if in_box else (16, 25, 35, 50, 70, 100):
         yield Smoothing(Lucy, 3.0, rows)
@@ -117,7 +117,7 @@ def grids() -> Iterator[Case]:
 
 
 def layers() -> Iterator[Case]:
-    """Particles in the layer, Figs 2, 3, 5, 8, 9, 12: numbers, fluids, walls; half of the time step."""
+    """Particles in the layer (Figs 2, 3, 5, 8, 9, 12), by Ra, rows, fluid, walls, and half of the step."""
     for ra in RA:
         yield from spam(ra, 50, keep=KEPT.get(ra, ""))
     for ra in (5000.0, 10000.0):
@@ -129,7 +129,7 @@ def layers() -> Iterator[Case]:
 
 
 def changed(ra: float) -> Iterator[Case]:
-    """5000 particles of other fluids and between other walls; the first seed at Ra 10 000 is looked at."""
+    """5000 particles of other fluids and between other walls. At Ra 10 000 the first seed keeps fields."""
     seen = ra == 1e4
     yield from spam(ra, 50, **NU)
     yield from spam(ra, 50, keep="fields" if seen else "", **VDW)
@@ -137,7 +137,7 @@ def changed(ra: float) -> Iterator[Case]:
 
 
 def checks() -> Iterator[Case]:
-    """Does the start decide whether particles flow, the time step what other fluids and boxes do?"""
+    """Runs that test the choice of the start, and of the time step in other fluids and boxes."""
     flow, half = VARIANTS["printed-from-flow"], VARIANTS["printed-half-step"]
     for rows in (25, 35, 50):
         yield from spam(2500.0, rows, variant=flow, keep="history", t_end=150.0, mean_from=100.0)
@@ -172,7 +172,7 @@ def others() -> Iterator[Case]:
 
 
 def more() -> Iterator[Case]:
-    """Seeds, steps and readings of the images where three seeds, or one reading, left a statement open."""
+    """More seeds, steps and readings of images, for statements that three seeds or one reading left open."""
     rest = MANY[len(SEEDS):]
     yield from spam(1e4, 50, rest, keep="history")
     for ra in (1e4, 3e3):
@@ -184,7 +184,7 @@ def more() -> Iterator[Case]:
 
 
 def upto(most: int) -> Iterator[int]:
-    """Rows of a series, as fine as it is run."""
+    """Numbers of rows in a series, up to the finest that is run."""
     yield from (rows for rows in (25, 35, 50, 70, 100) if rows <= most)
 
 

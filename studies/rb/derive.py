@@ -53,10 +53,9 @@ def finite(frame: pd.DataFrame) -> pd.DataFrame:
 
 
 def extrapolated(runs: pd.DataFrame) -> Iterator[Row]:
-    """One row `resolution = inf` of each series of grids or points with three settled sizes or more, one
-    state in all.
+    """Limits, rows `resolution = inf`, of series of three settled sizes or more with one number of rolls.
 
-    Grids and lattices have no chance in them; of sets of points that differ each run counts by itself.
+    Grids and lattices involve no chance. Where sets of points differ by chance, each run counts by itself.
     """
     settled = runs[runs.converged.astype(str) == "True"].sort_values("resolution")
     series = settled[settled.method.isin([*GRIDS, "dih"]) | settled.variant.isin(CORRECTED)]
@@ -93,11 +92,10 @@ def line_limit(group: pd.DataFrame, name: str) -> Measured:
 
 
 def over_seeds(runs: pd.DataFrame) -> Iterator[Row]:
-    """Means over the seeds of each point that settled in its commonest number of rolls; grid rows pass as
-    they are.
+    """Means over those seeds of each point that have its commonest number of rolls; rows of grids stay.
 
-    To the error of smooth particles belongs twice what half of the time step changes, of their own variant
-    where it was run, else of the printed one: its error is of first order, from the walls.
+    The error of smooth particles contains twice what half of the time step changes, as the walls make an
+    error of first order. The change is that of their own variant if it was run, else of the printed one.
     """
     changes = step_changes(runs)
     for point, group in runs.groupby(POINT, dropna=False):
@@ -111,9 +109,7 @@ def over_seeds(runs: pd.DataFrame) -> Iterator[Row]:
 
 
 def step_changes(runs: pd.DataFrame) -> pd.DataFrame:
-    """How much of each energy half of the time step changes, relative, by variant, scene and resolution; the
-    finest first.
-    """
+    """Relative change of each energy with half of the step, by variant, scene and rows, the finest first."""
     spam = runs[runs.method == "spam"]
     halves = spam[spam.variant.str.endswith(HALF)]
     halves = halves.assign(variant=halves.variant.str.removesuffix(HALF))
@@ -124,9 +120,8 @@ def step_changes(runs: pd.DataFrame) -> pd.DataFrame:
 
 
 def step_change(changes: pd.DataFrame, row: Row) -> pd.Series:
-    """That of the next coarser resolution of the same fluid and box, or else of any; of particles alone.
-
-    Of several Ra of this fluid that of the same one, if it is there.
+    """The change at the same Ra with the next fewer rows; without such runs that of the same fluid and box,
+    else of any. Grids and points have none.
     """
     if row["method"] != "spam":
         return pd.Series(0.0, ENERGIES)
@@ -177,7 +172,7 @@ def errors(runs: pd.DataFrame, means: pd.DataFrame, tables: Tables) -> pd.DataFr
 
 
 def compared(rows: pd.DataFrame, energy: str, column: str, limit: str) -> pd.DataFrame:
-    """Rows of the table `errors`: a column against the grid's limit, of which smoothing has `left` a part."""
+    """Rows of `errors`: a column against the grid's limit, of which smoothing leaves the share `left`."""
     ke, ke_err = rows[column], rows[column + "_err"]
     reference, reference_err = (rows.left*rows[limit + end] for end in ("_limit", "_err_limit"))
     ratio = ke/reference
@@ -187,7 +182,7 @@ def compared(rows: pd.DataFrame, energy: str, column: str, limit: str) -> pd.Dat
 
 
 def with_smoothing(rows: pd.DataFrame, tables: Tables) -> pd.DataFrame:
-    """Rows of particles with what their weight leaves of the K of the grid's field."""
+    """Rows of particles, with the share of the K of the grid's field that their weight leaves."""
     spam = rows.query("method == 'spam'")
     if "smoothed" not in tables:
         return spam[:0].assign(left=1.0)
@@ -201,8 +196,8 @@ def with_smoothing(rows: pd.DataFrame, tables: Tables) -> pd.DataFrame:
 
 
 def spent(runs: pd.DataFrame) -> pd.DataFrame:
-    """CPU seconds of what a mean is made of: all seeds of particles and points; of grids with the coarser
-    ones. These are of runs beside others; those of the study of cost had the machine to themselves.
+    """CPU seconds that a mean takes: of all seeds, and for grids of the coarser ones, too. Other runs shared
+    the machine, which those of the study `cost` had for themselves.
     """
     seconds = runs.groupby(POINT, dropna=False).cpu_s.sum().reset_index()
     grids = seconds.method.isin(GRIDS)

@@ -35,7 +35,7 @@ def snapshots(tables: Tables) -> Iterator[dict[str, Any]]:
 
 
 def kept(tables: Tables, name: str) -> Iterator[tuple[Point, pd.DataFrame]]:
-    """Points of a table, and the rows of the first seed that kept any."""
+    """Each point of a table, with the rows of the first seed that has any."""
     frame = tables.get(name, pd.DataFrame(columns=[*POINT, "seed"]))
     for key, runs in frame.groupby(POINT):
         yield dict(zip(POINT, key)), runs[runs.seed == runs.seed.min()]
@@ -63,7 +63,7 @@ def newtonian(at: Snapshot, point: Point, T: np.ndarray) -> Measured:
 
 
 def correlation(a: np.ndarray, b: np.ndarray) -> float:
-    """Of two fields of vectors (n, 2) less their means: the mean upwards bears the weight of the fluid."""
+    """Correlation of two vector fields (n, 2) less their means, which bear the weight of the fluid."""
     a, b = a - a.mean(axis=0), b - b.mean(axis=0)
     return float(np.sum(a*b)/sqrt(np.sum(a*a)*np.sum(b*b)))
 

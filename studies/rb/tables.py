@@ -92,17 +92,17 @@ def scene(ra: float, eos="ideal", transport="const-eta", sides="periodic") -> Po
 
 
 def particles(ra: float, height: float = 50, variant="printed", **where) -> Point:
-    """Of smooth particles, `height` rows of them: KHP95's 5000 are 50 rows of 100."""
+    """Columns of a point of smooth particles in `height` rows: KHP95's 5000 are 50 rows of 100."""
     return {"method": "spam", "variant": variant, "resolution": float(height)} | scene(ra, **where)
 
 
 def grid(ra: float, height: float = inf, variant="flux-form", **where) -> Point:
-    """Of the compressible grid; extrapolated without rows."""
+    """Columns of a point of the compressible grid; the limit if no rows are given."""
     return {"method": "compressible", "variant": variant, "resolution": float(height)} | scene(ra, **where)
 
 
 def points(ra: float, variant: str, height: float = inf, **where) -> Point:
-    """Of a scheme on RR98's points; extrapolated without rows."""
+    """Columns of a point of a scheme on RR98's points; the limit if no rows are given."""
     return {"method": "dih", "variant": variant, "resolution": float(height)} | scene(ra, **where)
 
 

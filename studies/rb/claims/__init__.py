@@ -45,7 +45,7 @@ POINTS = {"5000 particles at Ra 10 000": particles(1e4), "512 particles at Ra 10
 
 
 def looked(claim: Claim) -> Claim:
-    """The same, fixed after a look if it asks for the particles of which there are more seeds."""
+    """The claim, marked as fixed after a look if it asks for particles that have more than three seeds."""
     asked = [one.where.items() for one in getattr(claim.value, "asks", ())
              if one.table != "snapshots"]       # which has the first seed alone
     seen = (MORE_SEEDS.format(words) for words, point in POINTS.items()

@@ -55,7 +55,7 @@ def exact() -> Iterator[Claim]:
 
 def fact(name: str, place: str, printed: str, quantity: str, statement: str, because: str,
          **more: Any) -> Claim:
-    """What KHP95 says and a number that needs no flow decides."""
+    """A statement of KHP95 that a number without flow decides."""
     return said(name, place, printed, calculated(quantity), statement, because, **more)
 
 

@@ -72,7 +72,7 @@ def outside(kind: str, column: str) -> Value:
 
 
 def spectral() -> Iterator[Claim]:
-    """Of the spectral method, and of limits beside it."""
+    """Claims about the spectral method, and about the grids' limits beside it."""
     own: dict[str, Any] = {"source": "KHP95 Secs V, VI",
                            "after": "limits beside the spectral method, and its errors at Ra 10 000"}
     for kind, (column, name) in product(LIMITS, (("ke", "K"), ("nu", "Nu"))):

@@ -43,7 +43,7 @@ def error(ra: float, variant: str = "printed") -> Value:
 
 
 def as_read(ra: float, variant: str, energy: str) -> Value:
-    """K of particles; of mirror images the error reaches to what other readings of them give.
+    """K of particles. With mirror images its error reaches to the K of other readings of them.
 
     The paper leaves open which pressure images carry, and whether their velocities are odd about the plate's.
     """

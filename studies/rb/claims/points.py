@@ -23,7 +23,7 @@ def error(variant: str, height: float = np.inf, **fluid) -> Value:
 
 
 def order_of(variant: str, heights: tuple[int, ...]) -> Value:
-    """The order of this error."""
+    """Order of convergence of the same error."""
     return order({height: error(variant, height) for height in heights}, "slope")
 
 

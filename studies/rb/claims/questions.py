@@ -28,7 +28,7 @@ CELLS = (24, 32, 48)                        # rows of the grids that have lines
 
 def said(name: str, place: str, printed: str, value: Value, statement: str, because: str,
          **more: Any) -> Claim:
-    """A statement of KHP95: where, in which words or digits, what is measured of it, why its limits."""
+    """A claim of KHP95: place, printed words or digits, value, statement, and the reason of its limits."""
     return Claim(id=f"khp95-{name}", source=f"KHP95 {place}", printed=printed, value=value,
                  statement=statement, because=because, **more)
 
@@ -47,23 +47,23 @@ def mean(point: Point, column: str = "ke") -> Value:
 
 
 def limit(ra: float, column: str = "ke", **where) -> Value:
-    """The same of the compressible grid, extrapolated."""
+    """A column of the extrapolated compressible grid, likewise."""
     return mean(grid(ra, **where), column)
 
 
 def alike(point: Point) -> Value:
-    """K of the grid's field smoothed as the particles smooth theirs: that of Kg if the flow is right."""
+    """K of the grid's field, smoothed as the particles smooth theirs: Kg is to have this value."""
     return one("errors", "reference", energy="Kg", **point)
 
 
 def against_grid(point: Point, column: str = "ke_field", unit: Value | None = None) -> Value:
-    """K of particles over that of the grid, extrapolated, in the same flow; or over another unit."""
+    """K of particles over the grid's limit, or over another unit; refused where the flows differ."""
     beside = grid(1.0) | {name: point[name] for name in SCENE}
     return same_flow(mean(point, column)/(unit or mean(beside)), point, beside)
 
 
 def against_alike(point: Point) -> Value:
-    """Kg over K of the grid's field smoothed alike, in the same flow: 1 if it is right."""
+    """Kg over K of the grid's field smoothed alike, which is 1 if the flow is right."""
     return against_grid(point, unit=alike(point))
 
 
@@ -118,7 +118,7 @@ def refuse_other_flow(tables: Tables, point: Point, other: Point) -> None:
 
 
 def rolls_in(tables: Tables, point: Point) -> int:
-    """Rolls of the seeds of which the mean is made; none where motion has died."""
+    """Number of rolls of the seeds in the mean; 0 where motion has died."""
     row = one_flow(tables, point)
     return int(row.rolls) if row.ke > STILL else 0
 
@@ -177,7 +177,7 @@ def drift(t: Array, ke: Array, err: Array) -> Measured:
 
 @curve
 def settling(t: Array, ke: Array, err: Array) -> Measured:
-    """When K, averaged over a fortieth of the run, is near its late mean for good."""
+    """Time after which K, averaged over a fortieth of the run, stays near its late mean."""
     n = max(1, len(ke)//40)
     smooth = np.convolve(ke, np.full(n, 1/n), "same")[:len(ke) - n//2]
     far = np.abs(smooth/late(t, ke).mean() - 1) > NEAR
@@ -213,18 +213,18 @@ def bend(x: Array, y: Array, err: Array) -> Measured:
 
 @curve
 def slope_alone(x: Array, y: Array, err: Array) -> Measured:
-    """Of the same line; its error is that of the points at both ends."""
+    """Slope of the same line; its error is that of the points at both ends."""
     return Measured(fits.line(x, y).slope.value, err.max()/np.ptp(x))
 
 
 @curve
 def intercept_alone(x: Array, y: Array, err: Array) -> Measured:
-    """Of the same line, at 0, with the error of the points."""
+    """Value of the same line at 0, with the error of the points."""
     return Measured(fits.line(x, y).intercept.value, err.max())
 
 
 def reading(ra: float, anew: bool = False) -> Any:
-    """The line read at a Rayleigh number, with the error of the points alone, or as if drawn `anew` through
+    """The line at a Rayleigh number. Its error is that of the points, or with `anew` that of a line through
     other points with the same scatter.
     """
     def read(x: Array, y: Array, err: Array) -> Measured:

@@ -47,7 +47,7 @@ def energies(axes: Axes, spam: pd.DataFrame, column: str, words: str, style: Sty
 
 
 def name_frozen(axes: Axes, limit: pd.DataFrame, spam: pd.DataFrame) -> None:
-    """A word where the grid convects and the finest particles, from weak rolls, stand still on a lattice."""
+    """Mark Ra at which the grid convects, while the finest particles stand still on a lattice."""
     both = looks.finest(spam).merge(limit[["ra", "ke"]], on="ra", suffixes=("", "_grid"))
     frozen = both[(both.ke_grid > STILL) & (both.ke_field < 0.01*both.ke_grid)]
     line = {"arrowstyle": "-", "lw": 0.6, "shrinkB": 4}
@@ -135,7 +135,7 @@ def dots(axes: Axes, series: pd.DataFrame, y: pd.Series, words: str, style: dict
 
 
 def say_diverged(axes: Axes, row: Any, height: float) -> None:
-    """In place of a point, or beside one that other seeds have left, that runs diverged."""
+    """Say that runs diverged, in place of their point or beside the point of the other seeds."""
     seeds = "" if row.lost == row.seeds else f"{row.lost} of {row.seeds} seeds "
     words = f"{row.resolution:.0f} rows: {seeds}diverged"
     axes.annotate(words, (0.99, height), xycoords=("axes fraction", "data"), ha="right", va="center",
@@ -143,7 +143,7 @@ def say_diverged(axes: Axes, row: Any, height: float) -> None:
 
 
 def symlog(axes: Axes, error: pd.Series) -> None:
-    """Ticks of errors with their sign, in the range that there is."""
+    """Axis of errors with their sign, with ticks in the range of the errors."""
     axes.set_xscale("symlog", linthresh=LINEAR)
     ticks = [tick for tick in TICKS if abs(tick) <= max(LINEAR, 105*error.abs().max())]
     axes.set_xticks(ticks, labels=map(str, ticks))

@@ -108,7 +108,7 @@ def of_series(chosen: pd.DataFrame, keys: Iterable[str]) -> pd.DataFrame:
 
 
 def other_flows(tables: Tables, scene: dict[str, Any]) -> pd.DataFrame:
-    """Points that ended in another number of rolls than the grid: no rows of `errors`, and never `steady`."""
+    """Points whose flow has another number of rolls than the grid's: not in `errors`, and not steady."""
     limit = looks.reference(tables, **LAYER)[["ra", "ke", "rolls"]]
     both = looks.rows(tables, "means", **scene).merge(limit, on="ra", suffixes=("", "_grid"))
     other = both[(both.resolution.astype(float) < np.inf) & (both.rolls != both.rolls_grid)]

@@ -4,8 +4,6 @@ from typing import Any
 import pandas as pd
 
 
-def table_rows(key: dict[str, Any], **columns: Any) -> list[dict[str, Any]]:
+def table_rows(key: dict[str, Any], **columns: Any) -> list[dict]:
     """Rows of a table that have one key, from columns of the same length."""
-    frame = pd.DataFrame(columns)
-    values = frame.itertuples(index=False, name=None)
-    return [{**key, **dict(zip(columns, row, strict=True))} for row in values]
+    return pd.DataFrame(key | columns).to_dict("records")

@@ -92,7 +92,7 @@ def largest_modulus(weight: Printed, kind: str, h: float = RANGE, step: float = 
 
 
 def least(weight: Printed, kind: str) -> tuple[float, int]:
-    """Least density sum, and so least energy at any pressure, and how many particles a site have it."""
+    """Least density sum, which is the least energy at any pressure, and its number of particles a site."""
     return min((density(weight, kind, sites), sites) for sites in (1, 2, 3, 4))
 
 
@@ -139,7 +139,7 @@ def whole(q: np.ndarray) -> np.ndarray:
 class WholeLeapfrog(Midpoint):
     """Half a kick, a drift, half a kick in whole numbers: reversible bit by bit [Levesque & Verlet 1993].
 
-    Energies, of which nothing depends, stay.
+    Energies stay, as nothing depends on them.
     """
 
     def step(self, sums: Any, y: np.ndarray, dt: float) -> None:
@@ -169,7 +169,7 @@ def rates(method: Spam, state: np.ndarray) -> np.ndarray:
 
 @cache
 def end(method: Spam, seed: int, steps: int, integrator: type = RK4) -> np.ndarray:
-    """State at the end of TIME, by so many steps; kept, because several numbers need the same."""
+    """State at the end of TIME after so many steps; kept, as several numbers need it."""
     return march(replace(method, integrator=integrator), start(method, seed), steps)
 
 

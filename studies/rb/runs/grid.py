@@ -43,8 +43,8 @@ def no_particles(free_fall: float) -> dict:
 def spent(solution: Any) -> dict:
     """Columns of energy and effort of a solution in time.
 
-    What is left of settling in Nu is in proportion to that in K; the error of the grid shows in the
-    extrapolation.
+    The change of Nu that is still to come is taken in proportion to that of K. The error of the grid shows in
+    the extrapolation.
     """
     left = 2*solution.ke_err/solution.ke*solution.nu if solution.ke > 1e-9 else 0.0
     return {**one_energy(solution.ke, 2*solution.ke_err), "nu": solution.nu, "nu_err": float(left),
@@ -60,7 +60,7 @@ def field_rows(key: dict, scene: RayleighBenard, grid: Grid, at: Any) -> list[di
 class CompressibleSteady(Case, table="kinetic_energy"):
     """Steady states of the gas on ever finer grids, each started from the one before, with `sizes` rows.
 
-    keep : whether the finest grid's fields are kept, if not empty. form : of the equations on the grid.
+    keep : if not empty, fields of the finest grid are kept. form : of the equations on the grid.
     """
     sizes: tuple[int, ...]
     scene: RayleighBenard
@@ -96,7 +96,7 @@ class CompressibleSteady(Case, table="kinetic_energy"):
         return Outcome(rows)
 
     def _row(self, solution: Solution) -> dict:
-        """Of `kinetic_energy`."""
+        """Row of `kinetic_energy`."""
         point = compressible(self.scene, solution.rows, self.form.name)
         rolls = solution.rolls if solution.ke > STILL else 0
         return {**point, **no_particles(self.scene.free_fall), **spent(solution), "rolls": rolls}

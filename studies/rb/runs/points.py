@@ -112,7 +112,7 @@ class DihRun(PointsRun, table="kinetic_energy"):
         return self.variant.held
 
     def energies(self, done: Run) -> dict:
-        """The last ones."""
+        """K and Nu at the end of the run."""
         end = ended(self.scene, done)
         return {**one_energy(end.ke, end.ke_err), "nu": end.nu, "nu_err": end.nu_err,
                 "converged": end.converged}
@@ -128,7 +128,7 @@ class AveragedRun(PointsRun, table="kinetic_energy"):
         return np.array(done.series[name])[np.array(done.times) > self.mean_from*self.unit]
 
     def energies(self, done: Run) -> dict:
-        """Means; the heat that both plates do not share is in the error of Nu."""
+        """Means over time; the error of Nu contains the difference of heat at both plates."""
         ke, lower, upper = (self.late(done, name) for name in ("ke", "lower", "upper"))
         twice = 2*heat_at_rest(self.scene)
         (K, steady), (heat, _) = settled(ke, HALVES), settled((lower - upper)/twice)
