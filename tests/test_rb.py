@@ -48,7 +48,7 @@ def test_paper_holds_the_points_of_the_printed_figures_with_three_seeds():
 
 @pytest.mark.parametrize(("text", "kinds"), [
     ("wendland-c4", ["SpamRun"]), ("moving", ["MovingRun"]), ("moving-literal", ["DriftRun"]),
-    ("fixed-lattice", ["DihRun"]), ("Monaghan", ["DihRun", "SpamRun"])])
+    ("fixed-lattice", ["DihRun"]), ("moving-delaunay", ["CarriedRun"]), ("Monaghan", ["DihRun", "SpamRun"])])
 def test_a_text_names_a_method_or_all_that_have_it_in_their_names(text, kinds):
     cases = study.own(text, 16, 2)
     assert sorted(type(case).__name__ for case in cases if case.seed == 1) == kinds

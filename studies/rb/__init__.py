@@ -12,7 +12,7 @@ import pandas as pd
 from continuum.scene import RayleighBenard
 from studies.build import METHODS, near
 from studies.build.fixed import Scheme
-from studies.build.moving import DriftMotion, FacesMotion
+from studies.build.moving import Carriage, DriftMotion, FacesMotion
 from studies.build.spam import Variant
 from studies.build.words import name_of
 from studies.kit.case import Case
@@ -20,12 +20,13 @@ from studies.kit.study import Own, Study
 from studies.kit.sweep import NoSuchCase
 from studies.kit.table import Tables
 from studies.rb import cases, claims, derive, figures, tables
-from studies.rb.runs.points import DihRun, DriftRun, MovingRun
+from studies.rb.runs.points import CarriedRun, DihRun, DriftRun, MovingRun
 from studies.rb.runs.spam import SpamRun
 
 RA = 1e4
 #: family of variants -> its case
-RUNS: dict[type, Any] = {Variant: SpamRun, Scheme: DihRun, FacesMotion: MovingRun, DriftMotion: DriftRun}
+RUNS: dict[type, Any] = {Variant: SpamRun, Scheme: DihRun, FacesMotion: MovingRun, DriftMotion: DriftRun,
+                         Carriage: CarriedRun}
 SAME = ["method", "variant"]
 
 

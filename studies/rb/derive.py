@@ -138,7 +138,8 @@ def in_space(tables: Tables) -> Iterator[Row]:
     finest run.
     """
     by = "method variant start ra".split()
-    runs = finite(tables["three_dimensions"]) if "three_dimensions" in tables else pd.DataFrame(columns=by)
+    none = pd.DataFrame(columns=[*by, "resolution"])
+    runs = finite(tables["three_dimensions"]) if "three_dimensions" in tables else none
     for key, group in runs.sort_values("resolution").groupby(by):
         if len(group) < 3 or np.ptp(group.across) > SAME_PATTERN:
             continue
