@@ -18,7 +18,7 @@ from particles.integral.interpolants import W
 from particles.integral.points import lattice
 from particles.integral.thermal import fill_pairs
 from particles.weights import Lucy
-from studies.build.symbols import neighbours
+from studies.build.fixed import neighbours
 from studies.kit.case import Case, Report
 from studies.kit.stats import over_seeds, with_errors
 from studies.kit.table import Row

@@ -13,9 +13,8 @@ from particles.integral.points import Points
 from particles.limits import jacobian
 from particles.threads import Threads
 from particles.weights import WendlandC2
-from studies.build.fixed import SCHEMES, fluid
+from studies.build.fixed import SCHEMES, fluid, lattice_waves
 from studies.build.setting import Disorder
-from studies.build.symbols import lattice_waves
 from studies.kit.case import Case, Report
 from studies.kit.table import Row
 from studies.operators.weights import around, integral
