@@ -64,7 +64,7 @@ env: .venv/ready  ## set up .venv and nothing else
 # every table and figure of the size; then what is made from tables: of size quick the page alone, in results/quick
 studies: $(studies:%=study-%) $(if $(filter quick,$(SIZE)),,films executed) report  ## all studies, notebooks, films, the page: hours
 
-# of one solution: names of studies/build/words.py; several methods, rows, numbers of the scene in quotes
+# of one solution: names of studies/build/words.csv; several methods, rows, numbers of the scene in quotes
 SCENE   ?= rayleigh-benard
 METHOD  ?= fixed-lattice
 ROWS    ?= 16

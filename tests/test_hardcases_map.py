@@ -8,7 +8,7 @@ from scenes import rows_of
 from scipy.integrate import quad
 
 from particles.fields import Fields, kinetic_energy
-from studies.build.unguarded import bisected
+from studies.build.setting import bisected
 from studies.hardcases import extremes
 from studies.hardcases.cases import TILED, cases
 from studies.hardcases.claims import SQUARES
@@ -119,6 +119,6 @@ def test_rolls_of_a_flow_that_has_stopped_are_not_counted(flow, rolls, verdict):
 
 @pytest.mark.parametrize("first", [0.3, 1.0, 7.0])
 def test_bisection_finds_a_limit_from_either_side_and_says_so_when_there_is_none(first):
-    limit = bisected(lambda dt: dt > 1.2345, first)
-    assert abs(limit.value - 1.2345) <= limit.half < 0.006*limit.value
-    assert all(np.isnan(bisected(lambda dt, bad=bad: bad, first).value) for bad in (True, False))
+    limit, half = bisected(lambda dt: dt > 1.2345, first)
+    assert abs(limit - 1.2345) <= half < 0.006*limit
+    assert all(np.isnan(bisected(lambda dt, bad=bad: bad, first)).all() for bad in (True, False))

@@ -12,8 +12,7 @@ from continuum.fluid import ConstEta
 from particles.fields import Fields
 from particles.integral.bodies import with_disc
 from particles.integral.points import lattice
-from studies.build import variant
-from studies.build.answers import with_rows
+from studies.build import variant, with_rows
 from studies.hardcases import high_ra, printed
 from studies.hardcases.cases import IN_LAYERS, trial
 from studies.hardcases.columns import COLUMNS

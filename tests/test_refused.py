@@ -5,7 +5,6 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scenes import small
 
 from continuum.fluid import IdealGas
 from continuum.scene import RayleighBenard
@@ -22,8 +21,8 @@ from particles.weights import Lucy
 from studies.build import ready
 from studies.build.spam import PRINTED, images
 
-METHOD, START = small()
 SCENE, PLAN = RayleighBenard(ra=5000.0, L=8.0), Plan(dt=0.1, steps=1)
+METHOD, START, _ = ready(SCENE, PRINTED)
 PLACES = np.random.default_rng(1).uniform(-2, 2, (8, 2))
 WEIRD = st.floats(-1e100, 1e100) | st.sampled_from([
     np.nan, np.inf, "1", None, 1j, True, np.ma.masked, (), [1.0], IdealGas])

@@ -13,8 +13,7 @@ from continuum.fluid import DenseFluid, VanDerWaals, energy, pressure
 from continuum.scene import RayleighBenard
 from continuum.sides import HeatPath, Periodic, Plate, Sides, Sliding, Slip
 from particles.run import Plan, run
-from studies.build import ready
-from studies.build.answers import of_one_mass
+from studies.build import of_one_mass, ready
 from studies.build.cavity import cavity, compared
 
 ROUND = Periodic()

@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 from PIL import Image
 
-from studies.build import SCENES, words
+from studies.build import SCENES, names
 from studies.front.solving import ALL
 from studies.kit.csvfile import EMPTY, content, read
 from studies.kit.key import ROOT
@@ -79,16 +79,16 @@ def test_each_file_is_in_the_list():
 
 # --- names --------------------------------------------------------------------------------------------
 
-NAMES = {**words.METHODS, **words.VARIATIONS}
+NAMES = {**names.METHODS, **names.VARIATIONS}
 #: columns of tables -> what their texts name
-NAMED = {"method": NAMES, "rival": NAMES, "base": NAMES, "quantity": words.QUANTITIES}
+NAMED = {"method": NAMES, "rival": NAMES, "base": NAMES, "quantity": names.QUANTITIES}
 
 
 def test_every_name_has_its_word():
-    assert {*ALL} == {*words.METHODS} and {*SCENES} == {*words.SCENES}
-    assert not {*words.METHODS} & {*words.VARIATIONS}
-    assert "spam-wendland-c2" in words.explained("Wendland") and "moving" not in words.explained("Wendland")
-    assert "no name and no sentence has 'xyz'" in words.explained("xyz")
+    assert {*ALL} == {*names.METHODS} and {*SCENES} == {*names.SCENES}
+    assert not {*names.METHODS} & {*names.VARIATIONS}
+    assert "spam-wendland-c2" in names.explained("Wendland") and "moving" not in names.explained("Wendland")
+    assert "no name and no sentence has 'xyz'" in names.explained("xyz")
 
 
 @pytest.mark.parametrize("study", ["cost", "hardcases", "operators"])
@@ -102,5 +102,5 @@ def test_every_name_in_tables_is_a_word(study):
 def test_methods_with_variants_have_names_too():
     pairs = {pair for table in ("rb/means", "rb/walls", "onset/critical_ra")
              for pair in read(RESULTS/f"{table}.csv")[["method", "variant"]].itertuples(index=False)}
-    assert all(words.name_of(*pair) for pair in pairs), [pair for pair in pairs if not words.name_of(*pair)]
-    assert words.name_of("spam", "printed-monaghan") == "spam-monaghan" and not words.name_of("spam", "new")
+    assert all(names.name_of(*pair) for pair in pairs), [pair for pair in pairs if not names.name_of(*pair)]
+    assert names.name_of("spam", "printed-monaghan") == "spam-monaghan" and not names.name_of("spam", "new")

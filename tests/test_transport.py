@@ -11,8 +11,8 @@ from continuum.exact.waves import QUANTITIES, LinearGas, continuum, quantities
 from continuum.fluid import ConstNu
 from particles.integral.edge_makers import delaunay, renormalised
 from particles.weights import Lucy
+from studies.build.fixed import lattice_waves
 from studies.build.setting import DISORDERS
-from studies.build.symbols import lattice_waves
 from studies.operators.cases import DRIVES
 from studies.operators.transport import BETWEEN, SPEED, WAYS, Decay, between_rows
 

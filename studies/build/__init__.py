@@ -8,25 +8,32 @@
 
 In place of a name, `ready` takes a record of a family (`Variant`, `Scheme`, `FacesMotion`, `DriftMotion`,
 `GridForm`) or a method of one's own with `state(x, rho, v, T)`. A record has `refuses(scene)`, the part of a
-scene that it cannot take (empty if none), `ready(scene, seed, ...)`, the method in a scene, of most families
-from given fields (rho, v, T), and, but for the grid, `series`, quantities of a run: K, heat through plates.
+scene that it cannot take (empty if none), `ready(scene, seed, ...)`, the method in a scene, and, but for the
+grid, `series`, quantities of a run: K, heat through plates.
 """
 from collections.abc import Callable, Iterable, Mapping
+from dataclasses import replace
 from difflib import get_close_matches
 from types import FunctionType
 from typing import Any
 
+import numpy as np
+
+from continuum.domain import Domain
+from continuum.exact.plates import FLOWS
 from continuum.fluid import conductivity, viscosity
 from continuum.jit import check_formulas
 from continuum.scene import RayleighBenard, Walls
-from studies.build import fixed, grid, moving, spam, stable, words
+from studies.build import fixed, grid, moving, spam, stable
 from studies.build.cavity import cavity
+from studies.build.names import VARIATIONS
 from studies.build.rapid import ShearLayer, ShockTube
-from studies.build.scenes import Sound, TaylorGreen, between_plates
-from studies.build.setting import CannotTake, Ready, of_method
+from studies.build.scenes import HEIGHTS, BetweenPlates, Sound, TaylorGreen, as_dense
+from studies.build.setting import CannotTake, Ready, of_method, shaken
 
 ROWS = 16
-FEW = 12        # an error message lists all names of a table that has no more than these
+FALLS = 90.0        # free-fall times: K of rolls at Ra 10 000 then changes by 0.1 % at most
+FEW = 12            # an error message lists all names of a table that has no more than these
 
 
 def convection(rows: int = ROWS, ra: float = 1e4, **more: Any) -> RayleighBenard:
@@ -48,8 +55,8 @@ SCENES: dict[str, Callable[..., Any]] = {
     "sound": lambda rows=ROWS, **more: Sound(width=rows, **more),
     "shock-tube": lambda rows=54, **more: ShockTube(half=rows, **more),
     "shear-layer": lambda rows=ROWS, **more: ShearLayer(L=rows, **more),
-    "couette": lambda rows=ROWS: between_plates("couette", rows),
-    "conduction": lambda rows=ROWS: between_plates("conduction", rows),
+    "couette": lambda rows=ROWS: BetweenPlates(flow=FLOWS["couette"], L=rows),
+    "conduction": lambda rows=ROWS: BetweenPlates(flow=FLOWS["conduction"], L=rows),
 }
 
 
@@ -61,7 +68,7 @@ def prefixed(family: str, variants: Mapping[str, Any], usual: str) -> dict[str, 
 
 FAMILIES = (prefixed("grid", grid.FORMS, "flux-form"),
             prefixed("spam", spam.VARIANTS | spam.TODAY, "printed"), fixed.SCHEMES, moving.CARRIAGES,
-            stable.STABLE, moving.STABLE, moving.MOTIONS, moving.DRIFT_MOTIONS)
+            stable.STABLE, moving.MOTIONS, moving.DRIFT_MOTIONS)
 #: name -> variant; tables have the family in a column of its own
 METHODS = {name: variant for family in FAMILIES for name, variant in family.items()}
 #: the best known method of each family
@@ -118,8 +125,8 @@ def of_name(kind: str, name: str, table: Mapping[str, Any]) -> Any:
     if name in table:
         return table[name]
     why = f"no {kind} is called {name!r}"
-    if kind == "method" and name in words.VARIATIONS:
-        why = f"{name} is used by a single study only, {words.VARIATIONS[name].about}"
+    if kind == "method" and name in VARIATIONS:
+        why = f"{name} is used by a single study only, {VARIATIONS[name].about}"
     raise ValueError(f"{why}; {near(name, table)}; make words lists all")
 
 
@@ -132,3 +139,48 @@ def near(name: str, names: Iterable[str]) -> str:
         return f"there are {', '.join(known)}"
     usual = ", ".join(one for one in USUAL if one in known)
     return f"no name of {len(known)} is near to it; the usual ones are {usual}"
+
+
+# --- scenes: what may be asked besides the start ------------------------------------------------------------
+# a scene may define `duration`, `answer`, `quantities`, `of_one_mass`, and `counted`, the length that is the
+# number of rows, if that is not the height L
+
+def duration(scene: Any) -> tuple[float, float]:
+    """(length of a run in the scene's unit of time, this unit); exact solutions are known at its end."""
+    if isinstance(scene, RayleighBenard):
+        return FALLS, scene.L/scene.free_fall
+    return scene.duration if hasattr(scene, "duration") else (1.0, float(scene.time))
+
+
+def rows_of(scene: Any) -> int:
+    """Number of points or cells over the counted length: the height, or the wavelength of sound."""
+    return round(getattr(scene, counted(scene)))
+
+
+def with_rows(scene: Any, rows: int) -> Any:
+    """The same scene with another number of rows of points or cells."""
+    if hasattr(scene, "resized"):
+        return scene.resized(rows)
+    name = counted(scene)
+    return replace(scene, **{name: type(getattr(scene, name))(rows)})
+
+
+def counted(scene: Any) -> str:
+    """Name of the scene's length that is its number of rows."""
+    return getattr(scene, "counted", "L")
+
+
+def answer(scene: Any, x: np.ndarray) -> dict[str, np.ndarray]:
+    """Exact fields at the end of a run at positions x (n, 2), by names such as vx, T; empty if not known."""
+    return scene.answer(x) if hasattr(scene, "answer") else {}
+
+
+def of_one_mass(scene: Any, seed: int) -> tuple[Any, Any]:
+    """Start positions (n, 2) of particles of equal mass, and fields there; two None if the density is 1."""
+    if hasattr(scene, "of_one_mass"):
+        return scene.of_one_mass(seed)
+    if not isinstance(scene, Domain) or scene.start or not scene.g:
+        return None, None
+    at_rest = scene.fields(scene.L*np.stack([0*HEIGHTS, HEIGHTS - 0.5], axis=1))[0]
+    x = as_dense(shaken(scene, seed), scene.L, at_rest)
+    return x, scene.fields(x)

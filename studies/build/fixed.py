@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from continuum.exact.waves import LinearGas, Waves, continuum, waves
 from continuum.scene import Torus
 from continuum.sides import Periodic, Plate, Sides, Sliding, warm
 from particles.fields import kinetic
@@ -13,7 +14,8 @@ from particles.integral.bodies import Held, Rows, held, together, with_sides
 from particles.integral.edge_makers import closed, exact, plain, renormalised
 from particles.integral.edges import NONE_BEYOND, between_plates
 from particles.integral.entropy_stable import StableLayer
-from particles.integral.layer import Driven, Layer, LayerSums
+from particles.integral.interpolants import W, reach
+from particles.integral.layer import Driven, Layer
 from particles.integral.nested import mixed
 from particles.integral.points import of_positions, random, relaxed
 from particles.integral.stream import Stream, Streaming
@@ -22,12 +24,12 @@ from particles.weights import Lucy, Monaghan, WendlandC2
 from studies.build.setting import (
     Ready,
     check_points,
+    in_scene,
     inside,
     no_layer,
     no_still_layer,
     positions,
     shifted,
-    stepped,
     sticking,
 )
 
@@ -70,14 +72,12 @@ class Scheme(NamedTuple):
     def refuses(self, scene: Any) -> str:
         return sticking(scene) if self.held and isinstance(scene.sides, Sides) else self.lacks(scene)
 
-    def ready(self, scene: Any, seed: int = 1, fields: tuple | None = None) -> Ready:
-        method = fluid(scene, self, seed)
-        return stepped(method, method.state(*(fields or scene.fields(method.x))), OF_LIMIT)
+    def ready(self, scene: Any, seed: int = 1) -> Ready:
+        return in_scene(fluid(scene, self, seed), scene, OF_LIMIT)
 
     @property
     def series(self) -> dict[str, Any]:
-        heat = heat_of_rows if self.held else heat_in
-        return {"ke": kinetic, "lower": partial(heat, plate=0), "upper": partial(heat, plate=1)}
+        return {"ke": kinetic, "lower": partial(heat_in, plate=0), "upper": partial(heat_in, plate=1)}
 
 
 SCHEMES = {s.name: s for s in (
@@ -180,15 +180,10 @@ def in_corner(one: Any, other: Any, corner: int) -> Held:
     return held(np.array([corner]), T=float(np.mean(T)) if T else np.nan, heat=(one.q + other.q)/2)
 
 
-def heat_in(sums: LayerSums, state: np.ndarray, plate: int) -> float:
+def heat_in(sums: Any, state: np.ndarray, plate: int) -> float:
     """Heat that enters the fluid through a plate (0: lower, 1: upper), per time."""
-    return sums.heat_through(plate)
-
-
-def heat_of_rows(sums: Any, state: np.ndarray, plate: int) -> float:
-    """`heat_in` of plates that are rows of held points; on a torus, which has no such rows, as above."""
     if not isinstance(sums, Streaming):
-        return heat_in(sums, state, plate)
+        return float(sums.heat_through(plate))
     sums.rates(state, np.empty_like(state))
     return -float(sums.received[on_plate(sums.method.held, plate), 2].sum())
 
@@ -198,3 +193,42 @@ def on_plate(held: Held, plate: int) -> np.ndarray:
     ends = (held.body >= 4 + 2*plate) & (held.body < 6 + 2*plate)
     at = held.body == plate
     return at | ends & np.isin(held.T, held.T[at])
+
+# --- plane waves, exactly -----------------------------------------------------------------------------------
+
+
+def neighbours(weight: Any, d: int) -> np.ndarray:
+    """Points r (m, d) of the unit lattice within the range of a weight."""
+    q = np.arange(-int(reach(weight)), int(reach(weight)) + 1)
+    r = np.stack([axis.ravel() for axis in np.meshgrid(*[q]*d)], axis=1)
+    size = np.sqrt((r**2).sum(axis=1))
+    return r[(size > 0) & (size < reach(weight))]
+
+
+def lattice_waves(gas: LinearGas, weight: Any, k: np.ndarray, nested: bool) -> Waves:
+    """Plane waves of small amplitude on a square lattice, without code of the sums    [RR98, Sec. III]
+
+    k (2,) : wave vector along an axis or a diagonal. Numbers as in `continuum.exact.waves`. Sums are over
+    points r of a lattice of unit spacing, w = c W(r) with c from sum_r w r = d, e = r/|r|, n = k/|k|, m
+    normal to n:
+
+        s = sum_r w e.n sin k.r                                        [Eqs 34-36]
+        nested: l, q, t with s^2 for k^2                               [Eqs 37, 38]
+        pairwise: sum_r (2 w/r) (1 - cos k.r) times                    [Eq. 51]
+            A + B (e.n)^2 for l, A + B (e.m)^2 for t, kappa for q
+    """
+    d = len(k)
+    r = neighbours(weight, d)
+    size, n = np.sqrt((r**2).sum(axis=1)), k/np.hypot(*k)
+    w = W(weight, size)
+    w *= d/(w@size)
+    m = np.array([-n[1], n[0]])
+    along, across = r@n/size, r@m/size
+    s = float((w*along)@np.sin(r@k))
+    if nested:
+        return continuum(gas, s, d)
+    slow = 2*w/size*(1 - np.cos(r@k))
+    A = gas.eta*(1/2 + 1/d) - gas.zeta/2
+    B = (d + 2)/2*(gas.eta*(1 - 2/d) + gas.zeta)
+    l, t = slow@(A + B*along**2), slow@(A + B*across**2)
+    return waves(s, float(l), gas.kappa*float(slow.sum()), float(t))

@@ -109,10 +109,13 @@ class GridForm(NamedTuple):
         """Always empty: the grid can have sides of all kinds."""
         return ""
 
-    def ready(self, scene: Any, seed: int = 1, rows: int = 0, first: np.ndarray | None = None) -> Ready:
-        """The grid in a scene, in cells of unit size unless `rows` is given; first : block of the start."""
-        method = Gridded(scene=scene, rows=rows or round(scene.L), continuity=self.continuity)
-        first = begun(scene, method.rows, self) if first is None else first
+    def ready(self, scene: Any, seed: int = 1, first: np.ndarray | None = None) -> Ready:
+        """The grid in a scene, in cells of unit size; first : block of the start."""
+        method = Gridded(scene=scene, rows=round(scene.L), continuity=self.continuity)
+        if first is None:
+            first = block(beginning(scene, method.rows, self))
+            if scene.slide:     # which steps do not change
+                first[VX, -1] = scene.slide
         return stepped(method, method.march(first).S, self.step)
 
 
@@ -123,14 +126,6 @@ FORMS = {form.name: form for form in (
     GridForm("edge-heat", EdgeHeat()),
     GridForm("two-rolls", rolls=2, aside=1),
     GridForm("fig10", rolls=2, aside=1))}
-
-
-def begun(scene: Any, rows: int, form: GridForm) -> np.ndarray:
-    """The block at the start; nodes of a sliding plate get its velocity, which steps do not change."""
-    S = block(beginning(scene, rows, form))
-    if scene.slide:
-        S[VX, -1] = scene.slide
-    return S
 
 
 def beginning(scene: Any, rows: int, form: GridForm) -> NodeFields:

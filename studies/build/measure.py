@@ -16,7 +16,6 @@ from scipy.spatial import cKDTree
 from continuum.gas import fields as gas
 from continuum.scene import Periodic
 from particles.run import Divergence, Plan, Run, run
-from particles.threads import Threads
 from particles.weights import value_and_slope
 from studies.build.setting import Ready
 from studies.kit.stats import Measured
@@ -82,14 +81,6 @@ def turns(scene: Any, vy: np.ndarray) -> int:
         return 0
     up = mid[np.abs(mid) > 0.2*np.abs(mid).max()] > 0
     return int(np.sum(up[1:] != up[:-1]) + (isinstance(scene.sides, Periodic) and up[-1] != up[0]))
-
-
-def at_end(method: Any, done: Run) -> tuple[Any, np.ndarray]:
-    """(sums, state) of smooth particles at the end, in the order of new neighbour lists, with densities."""
-    sums, state = method.start(done.state.shape[1], Threads(1)), done.state.copy()
-    sums.around.relist(state, done.ids.copy(), 0.0)
-    sums.densities(state)
-    return sums, state
 
 
 def upright(at: Fields) -> Fields:

@@ -2,7 +2,7 @@
 
     [RR98 Eqs 39, 46-51]
 """
-from functools import cache, partial
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -15,7 +15,6 @@ from particles.integral.closed_faces import FaceSums, Ingredients, Moving
 from particles.integral.drifts import DRIFTS, ConstantMassDrift, OverPairs
 from particles.integral.exchange import PRINTED
 from particles.integral.moving_delaunay import SHIFT, MovingDelaunay, RingSums
-from particles.integral.moving_stable import StableDelaunay
 from particles.integral.points import lattice
 from particles.integral.rings import rings, spokes
 from particles.integral.rr98_moving import Drift, Drifts
@@ -30,10 +29,10 @@ from studies.build.names import START_JITTER
 from studies.build.setting import (
     Ready,
     check_points,
+    in_scene,
     no_still_layer,
     placed,
     shifted,
-    stepped,
     sticking,
     walls,
 )
@@ -50,11 +49,11 @@ class FacesMotion(NamedTuple):
     def refuses(self, scene: Any) -> str:
         return no_still_layer(scene)
 
-    def ready(self, scene: Any, seed: int = 1, x: Any = None, fields: Any = None) -> Ready:
+    def ready(self, scene: Any, seed: int = 1, x: Any = None) -> Ready:
         check_points(self, scene)
         method = Moving(weight=self.weight.of(h=self.h), eos=scene.eos, law=scene.law, g=scene.g,
                         box=(scene.width, scene.L), walls=walls(scene), ingredients=self.ingredients)
-        return placed(method, scene, seed, self.of_limit, x, fields)
+        return placed(method, scene, seed, self.of_limit, x)
 
     @property
     def series(self) -> dict[str, Any]:
@@ -87,14 +86,14 @@ class DriftMotion(NamedTuple):
     def refuses(self, scene: Any) -> str:
         return no_still_layer(scene)
 
-    def ready(self, scene: Any, seed: int = 1, x: Any = None, fields: Any = None) -> Ready:
+    def ready(self, scene: Any, seed: int = 1, x: Any = None) -> Ready:
         check_points(self, scene)
         weight = self.weight.of(h=self.h)
-        method = Drift(motion=self.motion, weight=weight, scale=scale(weight), eos=scene.eos, law=scene.law,
-                       box=(scene.width, scene.L), g=scene.g, walls=walls(scene),
-                       transport=MENDED if self.mended else PRINTED,
+        method = Drift(motion=self.motion, weight=weight, scale=scale_of(lattice((12, 12)), weight),
+                       eos=scene.eos, law=scene.law, box=(scene.width, scene.L), g=scene.g,
+                       walls=walls(scene), transport=MENDED if self.mended else PRINTED,
                        static=LessStatic(self.less, scene.T_mean))
-        return placed(method, scene, seed, 1.0, x, fields)
+        return placed(method, scene, seed, 1.0, x)
 
     @property
     def series(self) -> dict[str, Any]:
@@ -111,12 +110,6 @@ DRIFT_MOTIONS = {m.name: m for m in (
     DriftMotion("moving-sph", ConstantMassDrift(Powers(1.0, -1.0))),
     DriftMotion("moving-less-static", DRIFTS["constant-mass"], less=1.0),
 )}
-
-
-@cache
-def scale(weight: Any) -> float:
-    """Factor of plain quadrature that makes gradients right on a lattice of the mean density."""
-    return scale_of(lattice((12, 12)), weight)
 
 
 def of_heat(heat: Any) -> dict[str, Any]:
@@ -159,11 +152,9 @@ class Carriage(NamedTuple):
     of_limit: float = 0.9
 
     def refuses(self, scene: Any) -> str:
-        """The part of a scene that this cannot take; empty if none."""
         return sticking(scene)
 
-    def ready(self, scene: Any, seed: int = 1, fields: tuple | None = None) -> Ready:
-        """The method in a scene, from fields (rho, v, T) at its points, if given."""
+    def ready(self, scene: Any, seed: int = 1) -> Ready:
         check_points(self, scene)
         size, along = (scene.width, scene.L), scene.sides.axes
         closed = not along[0], not along[1]
@@ -171,11 +162,10 @@ class Carriage(NamedTuple):
         method = MovingDelaunay(x=x, rings=rings(x, size, closed), held=held_of(scene, x, rows),
                                 eos=scene.eos, law=scene.law, g=scene.g, rides=closed != (True, True),
                                 shift=self.shift)
-        return stepped(method, method.state(*(fields or scene.fields(x))), self.of_limit)
+        return in_scene(method, scene, self.of_limit)
 
     @property
     def series(self) -> dict[str, Any]:
-        """Series of a run: K, heat through both plates, heat that the flow carries."""
         return {"ke": kinetic, "lower": partial(heat_in, plate=0), "upper": partial(heat_in, plate=1),
                 "carried": heat_carried}
 
@@ -185,17 +175,6 @@ CARRIAGES = {one.name: one for one in (
     Carriage("moving-delaunay-half-step", of_limit=0.45),
     Carriage("moving-delaunay-quarter-step", of_limit=0.225),
 )}
-
-
-class StableCarriage(Carriage):
-    """Points that move with their triangulation, with an entropy-stable flux."""
-
-    def ready(self, scene: Any, seed: int = 1, fields: tuple | None = None) -> Ready:
-        made = super().ready(scene, seed, fields)
-        return made._replace(method=StableDelaunay(**vars(made.method)))
-
-
-STABLE = {one.name: one for one in (StableCarriage("moving-delaunay-entropy-stable"),)}
 
 
 NONE_HELD = Held(np.empty(0, int), np.empty((0, 2)), np.empty(0), np.empty(0, int), np.empty(0))

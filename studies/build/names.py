@@ -1,8 +1,15 @@
-"""Constants, column values, numbers printed in KHP95, and a plot axis that studies of convection share."""
-from typing import Any
+"""Names of methods, scenes, quantities, which words.csv explains; constants and columns of convection.
+
+KHP95 is Kum, Hoover & Posch 1995 (smooth-particle applied mechanics, SPAM); RR98 is Romero-Rochin & Rubi 1998
+(discretized integral hydrodynamics, DIH: fields on points that exchange over edges).
+"""
+import csv
+from pathlib import Path
+from typing import Any, NamedTuple
 
 from continuum.published import published
 from continuum.scene import ROLL_ENERGY
+from particles.weights import WEIGHTS
 from studies.kit.figure import width
 
 START_ENERGY = ROLL_ENERGY
@@ -18,6 +25,53 @@ ENERGY = r"kinetic energy per mass $K$  [$\varepsilon/m$]"
 LABEL = 0.42
 #: Rayleigh numbers to label on an axis, the rounder ones first
 NAMED = (10000, 5000, 2500, 20000, 1500, 3500, 1e5, 2000, 7000, 50000)
+
+
+class Word(NamedTuple):
+    """A name, its meaning in a sentence, and its source."""
+    name: str
+    about: str
+    source: str = ""
+
+
+def words(kind: str) -> dict[str, Word]:
+    """Words of a kind in words.csv, by name."""
+    with Path(__file__).with_name("words.csv").open(newline="") as lines:
+        return {row["name"]: Word(row["name"], row["about"], row["source"])
+                for row in csv.DictReader(lines) if row["kind"] == kind}
+
+
+METHODS, SCENES, QUANTITIES = words("method"), words("scene"), words("quantity")
+#: spam with a weight that has no line in words.csv is explained by the first line of the weight's docstring
+METHODS = {f"spam-{name}": Word(f"spam-{name}", f"spam with {str(kind.__doc__).splitlines()[0]} as weight")
+           for name, kind in WEIGHTS.items() if name not in ("lucy", "monaghan")} | METHODS
+#: further methods that tables and figures name: with another parameter, or of one study
+VARIATIONS = words("variation")
+#: column `method` of tables -> the family, and the variant that is called by the family's name alone
+FAMILIES = {"compressible": ("grid", "flux-form"), "spam": ("spam", "printed"), "dih": ("", ""),
+            "boussinesq": ("boussinesq", "mac"), "linear": ("linear-theory", ""),
+            "pypde-compressible": ("py-pde", "staggered")}
+
+
+def name_of(method: str, variant: str = "") -> str:
+    """Name of the method with these columns `method` and `variant` in tables; empty if it has none."""
+    family, usual = FAMILIES.get(method, (method, ""))
+    name = "-".join(filter(None, (family, variant.removeprefix(usual).removeprefix("-"))))
+    return name if name in METHODS or name in VARIATIONS else ""
+
+
+def explained(text: str = "") -> str:
+    """Lines of all words that contain a text, below a title for each kind."""
+    lines = []
+    for title, words in (("methods", METHODS), ("methods of single studies", VARIATIONS), ("scenes", SCENES),
+                         ("quantities", QUANTITIES)):
+        rows = [word for word in words.values() if text.casefold() in " ".join(word).casefold()]
+        lines += [f"{title}:", *(f"  {word.name:40s}{word.about}{f'  [{word.source}]'*bool(word.source)}"
+                                 for word in rows)]*bool(rows)
+    return "\n".join(lines) or f"no name and no sentence has {text!r}: leave it out to see all"
+
+
+# --- convection: columns, printed numbers, an axis ---------------------------------------------------
 
 
 def one_energy(ke: float, err: float) -> dict[str, float]:

@@ -1,7 +1,7 @@
 """Scenes of flows with exact solutions; convection is `continuum.scene.RayleighBenard`.
 
 Lengths in spacings; the gas is ideal with C_V = 1, density and temperature about 1, conductivity = viscosity.
-`studies.build.answers` reads their properties besides the start.
+`studies.build` reads their properties besides the start.
 """
 from dataclasses import dataclass
 from math import sqrt
@@ -12,7 +12,7 @@ from scipy.integrate import cumulative_trapezoid
 from scipy.linalg import expm
 
 from continuum.exact import plates
-from continuum.exact.plates import FLOWS, MU, PlateFlow
+from continuum.exact.plates import MU, PlateFlow
 from continuum.exact.vortex import Vortex, solved, velocities
 from continuum.exact.waves import LinearGas, continuum
 from continuum.fluid import ConstEta, IdealGas
@@ -76,12 +76,8 @@ class TaylorGreen(Scene):
         return self.vortex.speed
 
     @property
-    def eta(self) -> float:
-        return self.vortex.eta
-
-    @property
     def law(self) -> ConstEta:
-        return ConstEta(self.eta, self.eta)
+        return ConstEta(self.vortex.eta, self.vortex.eta)
 
     @property
     def time(self) -> float:
@@ -203,8 +199,3 @@ class Slab(RayleighBenard):
     def kappa(self) -> float:
         """Thermal diffusivity k/(rho C_V), as given."""
         return max(self.heat/float(self.eos.cv), TINY)
-
-
-def between_plates(name: str, rows: int) -> BetweenPlates:
-    """The scene `conduction` or `couette`."""
-    return BetweenPlates(flow=FLOWS[name], L=rows)

@@ -5,7 +5,7 @@ velocity `slide` of the upper one, gravity `g`, the fluid `eos, law`, and `field
 """
 from collections.abc import Callable
 from functools import cache
-from math import isclose
+from math import inf, isclose
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -23,6 +23,8 @@ from studies.build.names import START_JITTER
 FROM_EDGE = 0.25        # spacings: least distance of jittered points from a plate with images
 BREADTH = 16        # spacings across a wave
 APART = 0.5         # least distance of random points, in spacings
+HALVINGS = 8            # of the factor 2 between a stable and an unstable step: to 0.3 %
+WIDENINGS = 6           # factors of 2 on either side before the search gives up
 
 
 class Ready(NamedTuple):
@@ -47,13 +49,18 @@ def of_method(method: Any, scene: Any, seed: int = 1) -> Ready:
     if not hasattr(method, "x"):
         return placed(method, scene, seed, 0.8)
     check_places(method.x, scene)
-    return stepped(method, method.state(*scene.fields(method.x)), 0.8)
+    return in_scene(method, scene, 0.8)
 
 
-def placed(method: Any, scene: Any, seed: int, of_limit: float, x: Any = None, fields: Any = None) -> Ready:
-    """A method on points that start at x (n, 2) with fields (rho, v, T); by default a jittered lattice."""
+def in_scene(method: Any, scene: Any, of_limit: float) -> Ready:
+    """A method that has places `x`, with the scene's fields there."""
+    return stepped(method, method.state(*scene.fields(method.x)), of_limit)
+
+
+def placed(method: Any, scene: Any, seed: int, of_limit: float, x: Any = None) -> Ready:
+    """A method on points that start at x (n, 2); by default a jittered lattice."""
     x = shaken(scene, seed) if x is None else x
-    return stepped(method, method.state(x, *(fields or scene.fields(x))), of_limit)
+    return stepped(method, method.state(x, *scene.fields(x)), of_limit)
 
 
 def check_places(x: np.ndarray, scene: Any) -> None:
@@ -200,3 +207,44 @@ DISORDERS = {d.name: d for d in (
     Disorder("jittered-0.3", jittered, 0.3),
     Disorder("random", random, APART),
     Disorder("relaxed", relaxed_random, APART))}
+
+
+# --- the largest stable step by trial -----------------------------------------------------------------------
+
+
+class Unguarded:
+    """A method whose time step is not checked against its limit."""
+
+    def __init__(self, method: Any):
+        self.method = method
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self.method, name)
+
+
+@limit_of.register
+def _(method: Unguarded, start: np.ndarray) -> float:
+    return inf
+
+
+def bisected(grows: Callable[[float], bool], first: float) -> tuple[float, float]:
+    """The step above which `grows` is true, and the half width of its interval; nan if none was found.
+
+    From `first` by factors of 2, then by bisecting the logarithm.
+    """
+    low, high = bracket(grows, first)
+    for _ in range(HALVINGS if low < high else 0):
+        middle = float(np.sqrt(low*high))
+        low, high = (low, middle) if grows(middle) else (middle, high)
+    return (low + high)/2, (high - low)/2
+
+
+def bracket(grows: Callable[[float], bool], first: float) -> tuple[float, float]:
+    """Two steps a factor of 2 apart, `grows` false at the first and true at the second; nan if not found."""
+    step, bad = first, grows(first)
+    for _ in range(WIDENINGS):
+        other = step/2 if bad else 2*step
+        if grows(other) != bad:
+            return (other, step) if bad else (step, other)
+        step = other
+    return np.nan, np.nan

@@ -1,6 +1,5 @@
 """Smooth particles: the scheme as printed and its variants, in any scene    [KHP95]"""
 from collections.abc import Callable
-from difflib import get_close_matches
 from functools import cache
 from math import isclose
 from typing import Any, NamedTuple
@@ -63,17 +62,6 @@ def images_odd_own(scene: Any) -> tuple:
 def fixed_rows(scene: Any) -> tuple:
     """Six rows of fixed particles behind each plate, periodic sides    [KHP95, Fig. 2]"""
     return (*fixed_plates(scene.L, scene.T_hot, scene.T_cold), *periodic(scene.width))
-
-
-WALLS = {one.__name__: one for one in (images, images_odd, images_own, images_odd_own, fixed_rows)}
-
-
-def check_walls(walls: Any) -> None:
-    """Check that walls are a function of the scene. Raises TypeError."""
-    if not callable(walls):
-        near = get_close_matches(f"images_{walls}", WALLS, 1) or WALLS
-        raise TypeError(f"walls of a variant are a function of the scene, got {walls!r}: give one of "
-                        f"studies.build.spam, {', '.join(WALLS)} (nearest: {next(iter(near))}), or your own")
 
 
 def developed(scene: Any, x: np.ndarray) -> tuple:
@@ -188,12 +176,14 @@ def method(scene: Any, variant: Variant) -> Spam:
     if not (isinstance(weight, type) and hasattr(weight, "of")):
         raise TypeError(f"the weight of a variant must be a class of weights, got {weight!r}: give the "
                         "class, such as Lucy, and its range as h")
-    check_walls(variant.walls)
+    if not callable(variant.walls):
+        raise TypeError(f"walls of a variant are a function of the scene, got {variant.walls!r}: give one of "
+                        "studies.build.spam, such as images_odd, or your own")
     p = pressure(eos, 1.0, energy(eos, 1.0, scene.T_mean))
-    walls = around if isinstance(scene.sides, Torus) else variant.walls
-    if (ends := len(walls(scene))) != ENDS:
-        raise ValueError(f"walls of {variant.name} are {ends}, a box has {ENDS} ends: make one for each")
-    return Spam(weight=weight.of(variant.h), eos=eos, law=scene.law, walls=walls(scene),
+    walls = (around if isinstance(scene.sides, Torus) else variant.walls)(scene)
+    if len(walls) != ENDS:
+        raise ValueError(f"walls of {variant.name} are {len(walls)}, a box has {ENDS} ends: make one each")
+    return Spam(weight=weight.of(variant.h), eos=eos, law=scene.law, walls=walls,
                 box=(scene.width, scene.L), g=scene.g, gradients=variant.gradients,
                 transport=variant.transport,
                 static=LessStatic(variant.fraction, float(p), variant.hydrostatic))

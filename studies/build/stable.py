@@ -1,6 +1,5 @@
 """Entropy-stable methods with points on plates or with a blended pressure; methods around a disc."""
-from dataclasses import fields as fields_of
-from dataclasses import replace
+from dataclasses import fields
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -17,33 +16,38 @@ from particles.integral.rings import rings
 from particles.integral.stream import Stream
 from particles.integral.triangulation import around, delaunay
 from studies.build.fixed import OF_LIMIT, Scheme
-from studies.build.setting import CannotTake, Ready, check_spacings, no_still_layer, shifted, stepped
+from studies.build.moving import Carriage
+from studies.build.setting import Ready, check_points, in_scene, no_still_layer, shifted, stepped
 
 #: class of a method -> the same method with an entropy-stable flux
 WITH_FLUX: dict[type, type] = {Stream: StableStream, Layer: StableLayer, MovingDelaunay: StableDelaunay}
 
 
-def with_flux(made: Ready) -> Ready:
+def with_flux(made: Ready, of_limit: float = OF_LIMIT) -> Ready:
     """The same points, edges and start with an entropy-stable flux."""
     method = made.method
-    given = {one.name: getattr(method, one.name) for one in fields_of(method)}
-    return stepped(WITH_FLUX[type(method)](**given), made.start, OF_LIMIT)
+    given = {one.name: getattr(method, one.name) for one in fields(method)}
+    return stepped(WITH_FLUX[type(method)](**given), made.start, of_limit)
+
+
+class StableCarriage(Carriage):
+    """Points that move with their triangulation, with an entropy-stable flux."""
+
+    def ready(self, scene: Any, seed: int = 1) -> Ready:
+        return with_flux(super().ready(scene, seed), self.of_limit)
 
 
 class StablePlates(Scheme):
     """A scheme with rows of points on the plates and an entropy-stable flux."""
 
-    def ready(self, scene: Any, seed: int = 1, fields: tuple | None = None) -> Ready:
-        return with_flux(super().ready(scene, seed, fields))
+    def ready(self, scene: Any, seed: int = 1) -> Ready:
+        return with_flux(super().ready(scene, seed))
 
 
-class Blended(Scheme):
-    """A scheme with a blended pressure, which preserves contacts and is RR98's elsewhere."""
-
-    def ready(self, scene: Any, seed: int = 1, fields: tuple | None = None) -> Ready:
-        made, eos = super().ready(scene, seed, fields), scene.eos
-        terms = Logarithmic(eos), BlendedPressure(eos), Dissipation(eos)
-        return made._replace(method=replace(made.method, flow=terms))
+def blended(eos: Any, **given: Any) -> StableLayer:
+    """A layer with a blended pressure, which preserves contacts and is RR98's elsewhere."""
+    terms = Logarithmic(eos), BlendedPressure(eos), Dissipation(eos)
+    return StableLayer(eos=eos, flow=terms, **given)
 
 
 class Around(NamedTuple):
@@ -54,19 +58,15 @@ class Around(NamedTuple):
     size: float = 0.3
 
     def refuses(self, scene: Any) -> str:
-        """The part of a scene that this cannot take; empty if none."""
         if not isinstance(scene.sides, Torus):
             return f"sides = {scene.sides}"
         return "" if getattr(scene, "disc", 0) > 0 else "no disc"
 
-    def ready(self, scene: Any, seed: int = 1, fields: tuple | None = None) -> Ready:
-        if part := self.refuses(scene):
-            raise CannotTake(part)
-        check_spacings(scene)
+    def ready(self, scene: Any, seed: int = 1) -> Ready:
+        check_points(self, scene)
         box = scene.width, scene.L
         x, edge = with_disc(shifted(*box, self.size, seed), scene.disc)
-        method = self.around(scene, x, edge)
-        made = stepped(method, method.state(*(fields or scene.fields(x))), OF_LIMIT)
+        made = in_scene(self.around(scene, x, edge), scene, OF_LIMIT)
         return with_flux(made) if self.flux else made
 
     def around(self, scene: Any, x: np.ndarray, edge: np.ndarray) -> Any:
@@ -84,8 +84,9 @@ class Past(Around):
 
 
 STABLE = {one.name: one for one in (
-    Blended("fixed-lattice-entropy-stable-blended", kind=StableLayer, lacks=no_still_layer),
+    Scheme("fixed-lattice-entropy-stable-blended", kind=blended, lacks=no_still_layer),
     StablePlates("fixed-jittered-plates-entropy-stable", delaunay, size=0.3, held=True),
+    StableCarriage("moving-delaunay-entropy-stable"),
 )}
 #: name of a method with points on plates -> the method around a disc that takes its place
 BODIES = {one.name: one for one in (

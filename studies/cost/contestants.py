@@ -15,7 +15,7 @@ from particles.fields import Fields
 from particles.integral.points import lattice
 from particles.observe import fields_at
 from particles.smooth.spam import Spam
-from studies.build.answers import answer, of_one_mass, with_rows
+from studies.build import answer, of_one_mass, with_rows
 from studies.build.scenes import BetweenPlates, TaylorGreen
 from studies.build.setting import Ready
 from studies.cost.problem import Judge, Problem, Residuals, Result, of_grid, of_method, relative, rms

@@ -19,7 +19,7 @@ from particles.integrators import RK4
 from particles.limits import limit_of
 from particles.run import Divergence, Plan, Run, run
 from particles.threads import Threads
-from studies.build.unguarded import Unguarded
+from studies.build.setting import Unguarded
 
 HALVINGS = 7        # of the step at most: to 1/128 of the first one
 LONGEST = 60.0      # CPU seconds that halving may take: no step is halved that would exceed this

@@ -25,8 +25,7 @@ from particles.plan import Plan
 from particles.run import run
 from studies.build.measure import Smoothing, smoothed_energy
 from studies.build.names import START_ENERGY
-from studies.build.setting import Ready
-from studies.build.unguarded import Unguarded
+from studies.build.setting import Ready, Unguarded
 from studies.cost.contestants import smoothed, with_triangles
 from studies.cost.problem import NONE, Judge, Problem, Residuals, Result, of_grid, of_method, relative, rms
 from studies.kit.stats import Measured, settled

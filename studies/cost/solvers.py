@@ -14,7 +14,7 @@ from continuum.scene import RayleighBenard
 from continuum.spectral.laws import GasLaws
 from continuum.spectral.newton import SpectralState, steady
 from continuum.steady import RK4_DECAY, RK4_SOUND, Time
-from studies.build.answers import answer
+from studies.build import answer
 from studies.build.grid import started
 from studies.build.names import START_ENERGY
 from studies.cost.contestants import KNOWN, decay

@@ -1,4 +1,4 @@
-"""Tables of cost, the names of methods in them, which `studies.build.words` explains, and derived rows.
+"""Tables of cost, the names of methods in them, which `studies.build.names` explains, and derived rows.
 
 CPU seconds of one thread; errors relative; `_err`: half width of a 95 % interval. resolution: points to the
 wavelength (taylor-green, sound) or rows to the height.

@@ -7,7 +7,7 @@
 
 `make words` explains the names of scenes and methods.
 """
-from studies.front.solution import Solution
-from studies.front.solving import Comparison, compare, solve
+from studies.front.solution import Comparison, Solution
+from studies.front.solving import compare, solve
 
 __all__ = ["Comparison", "Solution", "compare", "solve"]

@@ -14,8 +14,6 @@ from studies.kit.key import digest
 from studies.kit.store import RESULTS
 from studies.kit.study import parsed, say
 
-OWN = RESULTS/"own"         # not committed
-
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Command line; returns 0, 1 (a run diverged or an argument is wrong) or 130 (interrupted)."""
@@ -27,12 +25,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
                         help="of the scene, such as ra=5000 pr=0.7")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--time", type=float, help="length of the run, for convection in free-fall times")
-    parser.add_argument("--out", type=Path, default=OWN, help="folder of the picture (default: results/own)")
+    parser.add_argument("--out", type=Path, default=RESULTS/"own", help="folder of the picture (results/own)")
     words = parsed(parser, arguments)
     path = words.out/f"{words.scene}-{'-'.join(words.methods)}.png"
     resume = path.with_name(f"{path.stem}-{digest(repr(words))[:8]}.run.h5")    # of these arguments alone
+    more = {**dict(words.numbers), "seed": words.seed, "time": words.time}
     try:
-        done = solution(words, resume)
+        if len(words.methods) == len(words.rows) == 1:
+            done: Any = solve(words.scene, *words.methods, rows=words.rows[0], resume=resume, **more)
+        else:
+            done = compare(words.scene, words.methods, words.rows, **more)
         print(done)
         done.plot(path)
     except (ValueError, TypeError, OSError, Divergence) as error:
@@ -52,14 +54,6 @@ def number(words: str) -> tuple[str, float]:
         if name not in signature(solve).parameters:
             return name, float(value)
     raise argparse.ArgumentTypeError(f"{words!r} is no number of a scene: write them as ra=5000 pr=0.7")
-
-
-def solution(words: argparse.Namespace, resume: Path) -> Any:
-    """Solution of one method with one number of rows, which can be resumed; else a comparison."""
-    more = {**dict(words.numbers), "seed": words.seed, "time": words.time}
-    if len(words.methods) == len(words.rows) == 1:
-        return solve(words.scene, words.methods[0], rows=words.rows[0], resume=resume, **more)
-    return compare(words.scene, words.methods, words.rows, **more)
 
 
 if __name__ == "__main__":

@@ -17,9 +17,8 @@ from continuum.sides import HeatPath
 from particles.fields import kinetic
 from particles.observe import fields_at
 from particles.smooth.spam import Spam
-from studies.build.answers import answer, quantities
+from studies.build import answer
 from studies.build.measure import heat_at_rest
-from studies.build.scenes import Slab
 from studies.kit.fits import line
 from studies.kit.stats import Measured, settled
 
@@ -32,7 +31,7 @@ AGREE = 0.3         # fraction of the mean: halves that differ by more are no st
 def heating(scene: Any) -> HeatPath | None:
     """Path of the heat between two plates; None if no two plates differ in temperature."""
     if isinstance(scene, RayleighBenard):
-        return None if isinstance(scene, Slab) else HeatPath(1, scene.dT, scene.L)
+        return HeatPath(1, scene.dT, scene.L)
     return getattr(scene, "heating", None)
 
 
@@ -53,7 +52,8 @@ def recorded(scene: Any, variant: Any) -> dict[str, Callable]:
     Nu of convection is from the variant's own series: the heat transport in the volume of smooth particles,
     or through the plates.
     """
-    own, heat, of_fields = getattr(variant, "series", {}), heating(scene), dict(quantities(scene))
+    own, heat = getattr(variant, "series", {}), heating(scene)
+    of_fields = dict(getattr(scene, "quantities", {}))
     record: dict[str, Callable] = {"K": kinetic}
     if "kg" in own:
         record = {"K": own["kg"], "K_particles": own["kp"]}
@@ -80,7 +80,7 @@ def seen(method: Any, state: np.ndarray) -> Fields:
 
 def numbers(scene: Any, history: pd.DataFrame, at: Fields) -> dict[str, Measured]:
     """K and Nu at the end with their errors; `error` if the scene has an answer, growth if it has a wave."""
-    at_last = at_end if heating(scene) else last
+    at_last = at_end if heating(scene) else lambda series: Measured(float(series[-1]))
     found = {name: at_last(history[name].to_numpy(float)) for name in ("K", "K_particles", "Nu")
              if name in history}
     if exact := answer(scene, at.x):
@@ -89,11 +89,6 @@ def numbers(scene: Any, history: pd.DataFrame, at: Fields) -> dict[str, Measured
     if "wave" in history:
         found["growth"] = Measured(*line(history["t"].to_numpy(), np.log(history["wave"])).slope)
     return found
-
-
-def last(series: np.ndarray) -> Measured:
-    """Last value of a series that is not steady."""
-    return Measured(float(series[-1]))
 
 
 def at_end(series: np.ndarray) -> Measured:

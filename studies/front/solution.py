@@ -1,4 +1,4 @@
-"""Result of `solve`: numbers with errors, a history, fields, a picture, a file."""
+"""Results of `solve` and `compare`: numbers with errors, a history, fields, a picture, a file."""
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -6,14 +6,18 @@ from typing import Any
 import h5py
 import numpy as np
 import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.tri import LinearTriInterpolator, Triangulation
 
 from continuum.fluid import Fields
-from studies.front.picture import picture
-from studies.kit.stats import Measured
+from studies.build import answer
+from studies.kit.figure import errorbar, figure, look, numbered, save
+from studies.kit.stats import Measured, with_errors
 
-
-class NoSuchQuantity(AttributeError):
-    """This solution does not have the requested quantity."""
+ARROWS = 11         # number over the height
+LONG = 3.0          # width/height from which on (also up to 1/2) fields are drawn along a line, not as a map
+NAMES = {"rho": "density", "vx": "velocity $v_x$", "T": "temperature"}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,12 +38,11 @@ class Solution:
     dt: float = 0.0
     steps: int = 0
     cpu_s: float = 0.0
-    compile_s: float = 0.0
 
     def __getitem__(self, name: str) -> Measured:
-        """A number by its name. Raises NoSuchQuantity: there is none."""
+        """A number by its name. Raises AttributeError: there is none."""
         if name not in self.numbers:
-            raise NoSuchQuantity(f"{self.method} has no {name} in this scene; it has "
+            raise AttributeError(f"{self.method} has no {name} in this scene; it has "
                                  f"{', '.join(self.numbers)}")
         return self.numbers[name]
 
@@ -64,9 +67,15 @@ class Solution:
         columns = ("x", "y", "vx", "vy", "rho", "T", "V")
         return pd.DataFrame(dict(zip(columns, (*x.T, *v.T, *others))))
 
-    def plot(self, path: str | Path | None = None) -> Any:
+    def plot(self, path: str | Path | None = None) -> Figure:
         """The figure of temperature, velocities and the history; as PNG at `path`, if given."""
-        return picture(self, path)
+        many = len(self.history) > 1
+        page, axes = figure(1, 1 + many, width=5.2, squeeze=False)
+        flow(axes[0, 0], self)
+        if many:
+            past(axes[0, 1], self.history)
+        page.suptitle(str(self), fontsize=9)
+        return written(page, path)
 
     def save(self, path: str | Path) -> Path:
         """Write a file, whole or not at all: ".h5" has fields, history, numbers; ".vtu" fields for ParaView.
@@ -112,3 +121,117 @@ def as_vtu(solution: Solution, path: Path) -> None:
     data = {"velocity": np.pad(at.v, third), "rho": at.rho, "T": at.T, "V": at.V}
     cells = [("vertex", np.arange(len(at.x))[:, None])]
     meshio.write(path, meshio.Mesh(np.pad(at.x, third), cells, point_data=data))
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Solutions of several methods. diverged : messages of runs without solution, by method and rows."""
+    solutions: list[Solution]
+    diverged: dict[str, str] = field(default_factory=dict)
+
+    @property
+    def table(self) -> pd.DataFrame:
+        """One row per method and resolution: numbers, each with its error, and their cost."""
+        return pd.DataFrame([row(one, with_errors(**one.numbers)) for one in self.solutions])
+
+    def plot(self, path: str | Path | None = None) -> Figure:
+        """Flows at the finest resolution, and numbers against cost. Raises ValueError: no solution."""
+        if not self.solutions:
+            raise ValueError("every run diverged: there is nothing to draw; take more rows or another method")
+        by_rows = sorted(self.solutions, key=lambda one: one.rows)
+        finest = {one.method: one for one in by_rows}.values()
+        table = self.table
+        names = [name for name in ("K", "Nu", "error") if name in table]
+        page = Figure(figsize=(3.4*max(len(finest), len(names)), 5.6), layout="constrained")
+        halves: Any = page.subfigures(2, 1)
+        above, below = halves
+        for axes, one in zip(above.subplots(1, len(finest), squeeze=False)[0], finest):
+            flow(axes, one)
+            axes.set_title(one.method)
+        for axes, name in zip(below.subplots(1, len(names), squeeze=False)[0], names):
+            against_cost(axes, table.dropna(subset=[name]), name)
+        return written(page, path)
+
+    def __str__(self) -> str:
+        """The table, with errors in units of the last digit, then the runs that diverged."""
+        rows = pd.DataFrame([row(one, {name: str(q) for name, q in one.numbers.items()})
+                             for one in self.solutions])
+        table = rows.to_string(index=False, na_rep="", float_format="{:.2g}".format)
+        diverged = [f"{name}: {why}" for name, why in self.diverged.items()]
+        return "\n".join([table]*bool(self.solutions) + diverged)
+
+
+def row(one: Solution, numbers: dict[str, Any]) -> dict[str, Any]:
+    """Row of the table for one solution."""
+    return {"method": one.method, "rows": one.rows, **numbers, "cpu_s": one.cpu_s, "steps": one.steps}
+
+
+# --- pictures -----------------------------------------------------------------------------------------------
+
+
+def written(page: Figure, path: str | Path | None) -> Figure:
+    """The figure, written as PNG if a path is given."""
+    if path is not None:
+        page.draw_without_rendering()       # ticks may change with the layout, which then has to follow
+        save(page, Path(path))
+    return page
+
+
+def flow(axes: Axes, solution: Any) -> None:
+    """Draw a map of the fields, or in a long strip the fields along it."""
+    aspect = solution.scene.width/solution.scene.L
+    if 1/2 < aspect < LONG:
+        mapped(axes, solution.scene, solution.fields())
+    else:
+        along(axes, solution, "x" if aspect > 1 else "y")
+
+
+def mapped(axes: Axes, scene: Any, at: pd.DataFrame) -> None:
+    """Draw temperature (or density, if it varies more) as colours, velocity as arrows."""
+    L, shown = scene.L, "T" if np.ptp(at["T"]) > np.ptp(at["rho"]) else "rho"
+    mesh = Triangulation(at["x"]/L, at["y"]/L)
+    colours = axes.tripcolor(mesh, at[shown], shading="gouraud", cmap="cividis")
+    axes.figure.colorbar(colours, cax=axes.inset_axes((1.03, 0, 0.05, 1)), label=NAMES[shown])
+    x, y = (np.arange(-size/2 + 0.5/ARROWS, size/2, 1/ARROWS) for size in (scene.width/L, 1))
+    X, Y = np.meshgrid(x, y)
+    vx, vy = (LinearTriInterpolator(mesh, at[name])(X, Y) for name in ("vx", "vy"))
+    if at[["vx", "vy"]].any(axis=None):      # arrows of a fluid at rest have no scale
+        axes.quiver(X, Y, vx, vy, color="white", edgecolor="black", linewidth=0.3, pivot="mid", width=0.006)
+    axes.set(aspect="equal", xlabel="x/L", ylabel="y/L")
+    axes.grid(False)
+
+
+def along(axes: Axes, solution: Any, axis: str) -> None:
+    """Plot every point's fields against one coordinate, and the exact answer, if known, in black."""
+    at = solution.fields().sort_values(axis)
+    exact = answer(solution.scene, at[["x", "y"]].to_numpy())
+    for number, name in enumerate(exact or ("rho", "vx", "T")):
+        dots = look(number) | {"linestyle": "none", "markersize": 2}
+        axes.plot(at[axis], at[name], **dots, label=NAMES[name])
+        if exact:
+            axes.plot(at[axis], exact[name], color="black", marker="", linestyle="-", linewidth=0.8)
+    axes.set(xlabel=axis, ylabel="exact: black line" if exact else "")
+    axes.legend()
+
+
+def past(axes: Axes, history: pd.DataFrame) -> None:
+    """Plot K against time, and Nu if heat passes."""
+    axes.plot(history["t"], history["K"], marker="", label="K")
+    axes.set(xlabel="time, in units of the scene", ylabel="K", ylim=(0, None))
+    if "Nu" in history:
+        right = axes.twinx()
+        right.plot(history["t"], history["Nu"], marker="", color="#D55E00", linestyle="--")
+        right.set_ylabel("Nu (dashed)")
+        right.grid(False)
+
+
+def against_cost(axes: Axes, table: pd.DataFrame, name: str) -> None:
+    """Plot one number of all methods, with errors, against CPU seconds; points are labelled with rows."""
+    for number, (method, rows) in enumerate(table.groupby("method", sort=False)):
+        errorbar(axes, rows["cpu_s"], rows[name], rows[f"{name}_err"], number=number, label=str(method),
+                 linestyle=look(number)["linestyle"])
+    for rows, *place in table[["rows", "cpu_s", name]].itertuples(index=False):
+        axes.annotate(f"{rows}", (place[0], place[1]), textcoords="offset points", xytext=(4, 4), fontsize=7)
+    axes.set(xscale="log", xlabel="CPU  [s]", ylabel=name, yscale="log" if name == "error" else "linear")
+    numbered(axes.xaxis)
+    axes.legend(fontsize=7)

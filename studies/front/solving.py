@@ -3,7 +3,7 @@ import re
 import sys
 import warnings
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import fields, replace
 from difflib import get_close_matches
 from functools import partial
 from inspect import signature
@@ -14,7 +14,6 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from matplotlib.figure import Figure
 from numba.core.errors import TypingError
 from tqdm import tqdm
 
@@ -22,17 +21,26 @@ from continuum.domain import Domain
 from continuum.scene import positive
 from particles.integral.points import lattice
 from particles.run import Divergence, Plan, run
-from studies.build import METHODS, SCENES, called, of_name, ready, variant
-from studies.build.answers import counted, duration, of_one_mass, rows_of, with_rows
+from studies.build import (
+    METHODS,
+    SCENES,
+    called,
+    counted,
+    duration,
+    of_name,
+    of_one_mass,
+    ready,
+    rows_of,
+    variant,
+    with_rows,
+)
 from studies.build.moving import DriftMotion, FacesMotion
 from studies.build.scenes import Sound
 from studies.build.setting import Ready
 from studies.build.spam import Variant
 from studies.front.observed import numbers, recorded, seen
-from studies.front.picture import pictures
 from studies.front.references import REFERENCES, solved
-from studies.front.solution import Solution
-from studies.kit.stats import with_errors
+from studies.front.solution import Comparison, Solution
 
 SAMPLES = 400       # approximate number of samples in a history
 #: name -> method or reference solver
@@ -56,22 +64,18 @@ def solve(scene: Any, method: Any, *, rows: int | None = None, seed: int = 1, ti
     if not isinstance(seed, Integral) or seed < 0:
         raise ValueError(f"seed must be a whole number of 0 or more, got {seed!r}: 1 is usual")
     where, chosen = placed(scene, rows, **of_scene), named(method)
-    if isinstance(method, str) and method in REFERENCES:
-        parts = solved(method, where)
-    else:
-        try:
+    try:
+        if isinstance(method, str) and method in REFERENCES:
+            parts = solved(method, where)
+        else:
             made = prepared(where, chosen, seed)
             plan = planned(where, chosen, dt or made.dt, time, resume)
             warn_of_heat(where, plan.dt*plan.steps)
             parts = followed(where, made, plan, called(method), progress)
-        except TypingError as error:
-            raise TypeError(misfit(str(error))) from error
-        except KeyError as error:
-            raise TypeError(f"a formula asks for {error}, which it is not given") from error
-        except ValueError as error:     # points on sides take a sliding side, but not into corners
-            corners = " = Sliding(" in str(error) and where.sides.axes == (False, False)
-            why = ", as it slides into corners: take"
-            raise ValueError(str(error).replace(": take", why, corners)) from None
+    except TypingError as error:
+        raise TypeError(misfit(str(error))) from error
+    except KeyError as error:
+        raise TypeError(f"a formula asks for {error}, which it is not given") from error
     return Solution(scene=where, method=called(method), rows=rows_of(where), seed=seed, **parts)
 
 
@@ -109,8 +113,7 @@ def check_keywords(given: Iterable[str], make: Callable) -> None:
 
 
 def numbers_of(make: Callable) -> list[str]:
-    """Keywords of `solve` for a scene: those of the scene's maker, the scene's numbers (without the length
-    that rows set), and those of `solve` itself."""
+    """Keywords for a scene: its maker's, its numbers but the length that rows set, those of `solve`."""
     taken, scene = signature(make).parameters.values(), make()
     own = [one.name for one in taken if one.kind is not one.VAR_KEYWORD]
     length = counted(scene) if "rows" in own else ""
@@ -175,36 +178,7 @@ def followed(scene: Any, made: Ready, plan: Plan, name: str, progress: bool | No
     history = pd.DataFrame({"t": np.array(done.times)/duration(scene)[1], **done.series})
     at = seen(made.method, done.by_id())
     return {"history": history, "at": at, "numbers": numbers(scene, history, at), "dt": plan.dt,
-            "steps": plan.steps, "cpu_s": done.cpu_s, "compile_s": done.compile_s}
-
-
-@dataclass(frozen=True)
-class Comparison:
-    """Solutions of several methods. diverged : messages of runs without solution, by method and rows."""
-    solutions: list[Solution]
-    diverged: dict[str, str] = field(default_factory=dict)
-
-    @property
-    def table(self) -> pd.DataFrame:
-        """One row per method and resolution: numbers, each with its error, and their cost."""
-        return pd.DataFrame([row(one, with_errors(**one.numbers)) for one in self.solutions])
-
-    def plot(self, path: str | Path | None = None) -> Figure:
-        """Flows at the finest resolution above; each number against cost below."""
-        return pictures(self, path)
-
-    def __str__(self) -> str:
-        """The table, with errors in units of the last digit, then the runs that diverged."""
-        rows = pd.DataFrame([row(one, {name: str(q) for name, q in one.numbers.items()})
-                             for one in self.solutions])
-        table = rows.to_string(index=False, na_rep="", float_format="{:.2g}".format)
-        diverged = [f"{name}: {why}" for name, why in self.diverged.items()]
-        return "\n".join([table]*bool(self.solutions) + diverged)
-
-
-def row(one: Solution, numbers: dict[str, Any]) -> dict[str, Any]:
-    """Row of the table for one solution."""
-    return {"method": one.method, "rows": one.rows, **numbers, "cpu_s": one.cpu_s, "steps": one.steps}
+            "steps": plan.steps, "cpu_s": done.cpu_s}
 
 
 def compare(scene: Any, methods: Sequence[Any], rows: Sequence[int] | int = (16, 25),

@@ -6,8 +6,7 @@ from typing import Any
 
 from continuum.fluid import DenseFluid, IdealGas
 from particles.weights import Lucy, Monaghan
-from studies.build import SCENES, variant, variants
-from studies.build.answers import duration, with_rows
+from studies.build import SCENES, duration, variant, variants, with_rows
 from studies.build.spam import PRINTED, Variant
 from studies.build.stable import BODIES
 from studies.hardcases import columns, extremes, high_ra, impacts, runs

@@ -19,8 +19,7 @@ from continuum.exact.shear import growing_wave, layer_with_wave
 from continuum.fluid import ConstEta, IdealGas
 from particles.fields import Fields, kinetic_energy
 from particles.integral.positive import switched
-from studies.build import variants
-from studies.build.answers import answer
+from studies.build import answer, variants
 from studies.build.scenes import SOUND, Start, TaylorGreen
 from studies.build.stable import BODIES
 from studies.hardcases.extremes import SPEED

@@ -22,8 +22,7 @@ from continuum.steady import SAFETY
 from particles.fields import kinetic_energy
 from studies.build.fixed import OF_LIMIT, Scheme
 from studies.build.names import START_ENERGY
-from studies.build.setting import Ready, stepped
-from studies.build.unguarded import bisected
+from studies.build.setting import Ready, bisected, stepped
 from studies.hardcases.extremes import ROWS, falls, layer
 from studies.hardcases.runs import SAMPLES, between_plates, followed
 from studies.kit.case import Case, Outcome, Report

@@ -27,7 +27,7 @@ from particles.smooth.spam import Spam
 from particles.walls.mirror import Copied, Mirror, Odd
 from particles.walls.periodic import periodic
 from particles.weights import Lucy
-from studies.build.measure import Snapshot, at_end, turns
+from studies.build.measure import Snapshot, turns
 from studies.build.names import START_ENERGY
 from studies.build.spam import FRICTIONLESS, Variant, at_rest
 from studies.hardcases.extremes import falls
@@ -80,7 +80,7 @@ class Square(Case):
                     mean_from=self.mean_from*unit, means={"grid": Grid.over(method.box, 30)},
                     checkpoint=folder/"run.h5")
         done = run(method, start, plan, report)
-        mean, (sums, _) = Smoothed(*done.means["grid"]), at_end(method, done)
+        mean, (sums, *_) = Smoothed(*done.means["grid"]), method.look(done.state)
         x = np.stack([sums.around.x, sums.around.y], axis=1)
         near = Snapshot(x, np.zeros_like(x), sums.n, SIDE)
         flow = mean.rho*(mean.vx**2 + mean.vy**2)/2

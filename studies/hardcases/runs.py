@@ -20,7 +20,7 @@ from continuum.steady import Time
 from particles.fields import Fields
 from particles.plan import Quantity
 from particles.run import Divergence, Plan, run
-from studies.build.answers import of_one_mass as places_of_one_mass
+from studies.build import of_one_mass as places_of_one_mass
 from studies.build.grid import GridForm, started
 from studies.build.names import START_JITTER
 from studies.build.scenes import Start, Tile

@@ -12,8 +12,6 @@ from studies.judge.page import write_page
 from studies.kit.store import RESULTS
 from studies.kit.study import parsed, say
 
-OWN = RESULTS/"own"         # not committed
-
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """The command line; 0 if a rung is passed, 1 if none is or there is no such method, 130 if stopped."""
@@ -23,7 +21,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--rows", type=int, nargs="+", default=[16, 25, 35],
                         help="points or cells over the height; a small ladder has 8 12")
     parser.add_argument("--minutes", type=float, default=10.0, help="what would take longer is left out")
-    parser.add_argument("--out", type=Path, default=OWN, help="folder of the page (default: results/own)")
+    parser.add_argument("--out", type=Path, default=RESULTS/"own", help="folder of the page (results/own)")
     words = parsed(parser, arguments)
     try:
         method = found(words.method)

@@ -13,7 +13,8 @@ from studies.front.solving import named, prepared
 #: member -> its form, in messages
 MEMBERS = {"names": "names, of the rows of a state", "eos": "eos, the scene's",
            "fields": "fields(state), which gives Fields(x, v, rho, T, V)",
-           "start": "start(n, threads), which gives its sums: inherit OwnRates"}
+           "start": "start(n, threads), which gives its sums: inherit OwnRates",
+           "state": "state(rho, v, T), or state(x, rho, v, T) without places x of its own"}
 AGREE = 1e-6        # largest difference of fields(state(...)) from the scene's fields
 
 
@@ -25,27 +26,19 @@ def contract(scene: Any, method: Any) -> dict[str, float]:
     """Check a method in a scene; return no numbers. Raises Breach: it does not meet the contract."""
     chosen = named(method)
     if isinstance(chosen, type) and not hasattr(chosen, "ready"):
-        check_members(chosen(scene), "state")
+        made = chosen(scene)
+        if lacking := [told for name, told in MEMBERS.items() if not hasattr(made, name)]:
+            raise Breach(f"lacks {'; '.join(lacking)}")
     check(scene, prepared(scene, chosen))
     return {}
 
 
 def check(scene: Any, ready: Ready) -> None:
-    """Raise Breach if a method in a scene has wrong members, fields, sums or limit of the step."""
-    check_members(ready.method)
+    """Raise Breach if a method in a scene has wrong fields, sums or limit of the step."""
     check_fields(scene, ready.method, ready.start)
     check_sums(ready.method, ready.start)
-    limit = limit_of(ready.method, ready.start)
-    if not 0 < limit < np.inf:
-        raise Breach(f"its longest step is {limit}: limit(start) must be positive and finite")
-
-
-def check_members(method: Any, *more: str) -> None:
-    """Raise Breach if a method lacks one of MEMBERS, or of ``more``."""
-    told = {**MEMBERS, "state": "state(rho, v, T), or state(x, rho, v, T) without places x of its own"}
-    lacking = [told[name] for name in (*MEMBERS, *more) if not hasattr(method, name)]
-    if lacking:
-        raise Breach(f"lacks {'; '.join(lacking)}")
+    if not 0 < ready.limit < np.inf:
+        raise Breach(f"its longest step is {ready.limit}: limit(start) must be positive and finite")
 
 
 def check_fields(scene: Any, method: Any, start: np.ndarray) -> None:

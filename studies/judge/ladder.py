@@ -16,9 +16,8 @@ import numpy as np
 
 from continuum.fluid import ConstEta
 from particles.run import Divergence
-from studies.build import SCENES
-from studies.build.answers import duration
-from studies.build.scenes import SOUND, Answer, Scene, Start, TaylorGreen
+from studies.build import SCENES, duration
+from studies.build.scenes import SOUND, Answer, Start, TaylorGreen, Tile
 from studies.judge import measures
 from studies.judge.contract import contract
 from studies.judge.measures import Numbers, Taken, Verdict
@@ -30,21 +29,16 @@ WIND = 2.0              # speed of the wind over the largest speed of the vortex
 
 
 @dataclass(frozen=True, kw_only=True)
-class Still(Scene):
-    """A gas at rest in a periodic box of L spacings."""
-    L: int
-
-    @property
-    def width(self) -> int:  # type: ignore[override]
-        return self.L
-
-    @property
-    def law(self) -> ConstEta:
-        return ConstEta(FRICTION*self.L, FRICTION*self.L)
+class Still(Tile):
+    """A gas at rest in a periodic box."""
 
     @property
     def time(self) -> float:
         return CROSSINGS*self.L/SOUND
+
+
+def still(rows: int) -> Still:
+    return Still(width=rows, L=rows, law=ConstEta(FRICTION*rows, FRICTION*rows))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -91,7 +85,7 @@ vortex = SCENES["taylor-green"]         # Mach number 0.05, Re 100
 RUNGS = (
     Rung("contract", "Has it what a run asks for?", vortex, contract, measures.meets,
          "members and shapes of particles.method; fields(state(...)) gives back the fields"),
-    Rung("rest", "Does a fluid at rest stay at rest?", lambda rows: Still(L=rows), measures.rest,
+    Rung("rest", "Does a fluid at rest stay at rest?", still, measures.rest,
          measures.stays, f"rms speed below {measures.ROUNDING:g} of sound is rest, above {measures.NOISE:g} "
          f"motion; hotter by {measures.WARM:g} is heating"),
     Rung("conservation", "Are mass, momentum, energy kept?", vortex, measures.kept, measures.keeps,
@@ -162,12 +156,11 @@ def taken(method: Any, rung: Rung, rows: int, left: float, before: list[Take]) -
 def told(error: Exception, method: Any) -> str:
     """One line: the error, and where in the method's own file it was raised."""
     words = str(error).strip().split("\n")[0]
-    own = Path(inspect.getfile(method)) if isinstance(method, type) else None
     if isinstance(error, Divergence):
         return words
-    lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__)
-             if own and Path(frame.filename) == own]
-    place = f" (line {lines[-1]} of {own.name})" if own and lines else ""
+    own = inspect.getfile(method) if isinstance(method, type) else ""
+    lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if frame.filename == own]
+    place = f" (line {lines[-1]} of {Path(own).name})" if lines else ""
     return f"{type(error).__name__}: {words}{place}"
 
 

@@ -10,9 +10,9 @@ import numpy as np
 from continuum.fluid import Fields, energy
 from particles.fields import kinetic, kinetic_energy
 from particles.run import Divergence, Plan, run
-from studies.build.answers import answer
+from studies.build import answer
 from studies.build.scenes import SOUND, TaylorGreen
-from studies.build.unguarded import Unguarded, bisected
+from studies.build.setting import Unguarded, bisected
 from studies.front.observed import apart
 from studies.front.solving import named, planned, prepared, solve
 from studies.kit import csvfile
@@ -130,7 +130,8 @@ def longest(scene: TaylorGreen, method: Any) -> Numbers:
         except (Divergence, ArithmeticError):
             return True
         return not max(K) < FED*first
-    share = bisected(grows, ready.limit).value/ready.limit
+    limit, _ = bisected(grows, ready.limit)
+    share = limit/ready.limit
     return {"claimed": ready.limit, "share": share, "grows": float(grows(ready.limit))}
 
 
@@ -164,10 +165,14 @@ def convergence(taken: Taken) -> Verdict:
     told = f"{percent(error)} off with {rows} rows"
     if len(taken) < 2:
         return Verdict(told, None)
+    fewer, first = taken[0]
+    return falling(taken, told, f", {percent(first['error'])} with {fewer}")
+
+
+def falling(taken: Taken, told: str, begins: str = "") -> Verdict:
+    """Verdict on the order of errors of one sign."""
     if order(taken) < LEAST:
-        fewer, first = taken[0]
-        return Verdict(f"has no order on these rows, its errors fall too slowly: {told}, "
-                       f"{percent(first['error'])} with {fewer}", False)
+        return Verdict(f"has no order on these rows, its errors fall too slowly: {told}{begins}", False)
     return Verdict(f"converges with order {order(taken):.1f}: {told}", True)
 
 
@@ -197,9 +202,7 @@ def right(taken: Taken) -> Verdict:
         most = percent(max(errors, key=abs))
         return Verdict(f"has no order, as its errors change sign: {told}, {most} off at most",
                        abs(errors[-1]) < abs(errors[0]))
-    if order(taken) < LEAST:
-        return Verdict(f"has no order on these rows, its errors fall too slowly: {told}", False)
-    return Verdict(f"converges with order {order(taken):.1f}: {told}", True)
+    return falling(taken, told)
 
 
 def percent(share: float) -> str:

@@ -3,7 +3,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from studies.build.words import name_of
+from studies.build.names import name_of
 from studies.kit.figure import Drawing, Drawings, errorbar, figure, look, numbered, plain_ticks
 from studies.kit.table import groups
 from studies.lattices.loss import fitted, projected

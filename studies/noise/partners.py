@@ -16,7 +16,7 @@ from particles.integral.interpolants import W
 from particles.integral.points import lattice, random
 from particles.weights import Lucy, WendlandC2
 from studies.build.setting import Disorder
-from studies.build.symbols import neighbours
+from studies.build.fixed import neighbours
 from studies.kit.case import Case, Report
 from studies.kit.table import Row
 

@@ -31,8 +31,8 @@ from particles.limits import limit_of
 from particles.run import Plan, run
 from particles.threads import Threads
 from particles.weights import Lucy, WendlandC2
+from studies.build.fixed import lattice_waves
 from studies.build.setting import positions
-from studies.build.symbols import lattice_waves
 from studies.kit.case import Case, Report
 from studies.kit.stats import Measured
 from studies.kit.table import Row

@@ -13,8 +13,8 @@ from continuum.scene import RayleighBenard
 from studies.build import METHODS, near
 from studies.build.fixed import Scheme
 from studies.build.moving import Carriage, DriftMotion, FacesMotion
+from studies.build.names import name_of
 from studies.build.spam import Variant
-from studies.build.words import name_of
 from studies.kit.case import Case
 from studies.kit.study import Own, Study
 from studies.kit.sweep import NoSuchCase

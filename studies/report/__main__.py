@@ -4,19 +4,21 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from studies.kit.csvfile import write_atomic
 from studies.kit.study import say
 from studies.kit.sweep import RESULTS
-from studies.report.equations import write_equations
-from studies.report.page import write_page
-from studies.report.tables import write_tables
+from studies.report import equations, page, tables
 from studies.report.text import write_gallery
+
+#: command -> the file that it writes, all or nothing, and its text
+FILES = {"page": ("index.html", page.text), "equations": ("equations.md", equations.text),
+         "tables": ("tables.md", tables.text)}
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Command line; returns 0, or 1 if the files cannot be made."""
     parser = argparse.ArgumentParser(prog="python -m studies.report")
-    commands = ["page", "equations", "tables", "gallery", "films"]
-    parser.add_argument("command", nargs="?", default="page", choices=commands)
+    parser.add_argument("command", nargs="?", default="page", choices=[*FILES, "gallery", "films"])
     parser.add_argument("--out", type=Path, default=RESULTS, help="folder with the tables (default: results)")
     words = parser.parse_args(arguments)
     try:
@@ -26,8 +28,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         elif words.command == "gallery":
             paths = write_gallery(words.out)
         else:
-            write = {"page": write_page, "equations": write_equations, "tables": write_tables}[words.command]
-            paths = [write(words.out)]
+            name, text = FILES[words.command]
+            paths = [words.out/name]
+            write_atomic(paths[0], text(words.out))
     except ValueError as error:
         return say(f"report: {error}", 1)
     for path in paths:

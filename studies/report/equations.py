@@ -17,7 +17,6 @@ from typing import Any, NamedTuple
 import pandas as pd
 
 from studies.kit.claim import Cited, places
-from studies.kit.csvfile import write_atomic
 from studies.report.inventory import NoReport, claims_of
 
 SENTENCES = Path(__file__).with_name("sentences")
@@ -42,13 +41,6 @@ class Account(NamedTuple):
         return places(self.at)
 
 
-def write_equations(out: Path) -> Path:
-    """Write equations.md from claims.csv, all or nothing; return its path. Raises NoReport: as `text`."""
-    path = out/"equations.md"
-    write_atomic(path, text(claims_of(out), lines(), out))
-    return path
-
-
 def lines() -> list[Account]:
     """All entries, sorted by paper, kind and number."""
     tables = [tomllib.loads(path.read_text()) for path in SENTENCES.glob("*.toml")]
@@ -57,13 +49,13 @@ def lines() -> list[Account]:
     return sorted(known, key=lambda line: line.places[0].order)
 
 
-def text(claims: pd.DataFrame, known: Sequence[Account], out: Path) -> str:
-    """Text of the file.
+def text(out: Path) -> str:
+    """Text of the file, from claims.csv.
 
     Raises NoReport: an entry cites a missing claim or file, or its words do not fit its verdicts.
     """
-    parts = [(SENTENCES/"head.md").read_text()]
-    for (paper, title), group in groupby(known, key=heading):
+    claims, parts = claims_of(out), [(SENTENCES/"head.md").read_text()]
+    for (paper, title), group in groupby(lines(), key=heading):
         rows = [COLUMNS, ["---"]*len(COLUMNS), *(cells(line, claims, out) for line in group)]
         parts += [f"## {paper}: {title}\n", *("| " + " | ".join(row) + " |" for row in rows), ""]
     return "\n".join(parts)

@@ -90,12 +90,8 @@ def folders(out: Path) -> list[Folder]:
     known = [folder for folder in map(folder_of, paths) if folder.sheets or folder.pictures]
     if not known:
         raise NoReport(f"no tables in {out}: run a study first, make study-rb writes the main ones")
-    return sorted(known, key=lambda folder: (place(folder.name, FIRST), folder.name))
-
-
-def place(name: str, order: Sequence[str]) -> int:
-    """Position of a name in an order; names that are not in it come last."""
-    return order.index(name) if name in order else len(order)
+    order = {name: number for number, name in enumerate(FIRST)}
+    return sorted(known, key=lambda folder: (order.get(folder.name, len(FIRST)), folder.name))
 
 
 def folder_of(path: Path) -> Folder:

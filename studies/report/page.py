@@ -14,13 +14,13 @@ import pandas as pd
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from PIL import Image
 
-from studies.build import words
+from studies.build import names
 from studies.kit.claim import paper_of, places
-from studies.kit.csvfile import read, write_atomic
+from studies.kit.csvfile import read
 from studies.kit.figure import caption
-from studies.kit.table import Table
 from studies.report.equations import filled, short, signed, with_error
 from studies.report.inventory import Folder, NoReport, Sheet, claims_of, drawings, folders
+from studies.report.tables import FILMS
 from studies.report.text import TEXTS, document, examples, opening, target
 
 #: folder of template, style, script, and sentences on what each figure shows
@@ -30,25 +30,16 @@ LIMIT = 7_800_000
 VERDICTS = {"holds": "✓", "fails": "✗", "undecidable": "?"}
 #: papers whose equations a reader can choose
 PAPERS = ("KHP95", "RR98")
-#: table of films: caption and numbers of each
-FILMS = Table.of("films", "method", "caption ra rows grid_rows t_end last_ke last_ke_grid",
-                 about="A film of convection beside the grid.",
-                 means={"t_end": ("free-fall times that it shows", "")})
 
 
-def write_page(out: Path) -> Path:
-    """Write index.html, all or nothing; return its path.
-
-    Raises NoReport: a source is missing or broken, or the page too large; an older page stays as it is.
-    """
+def text(out: Path) -> str:
+    """The page of a folder. Raises NoReport: a source is missing or broken, or the page too large."""
     check_inside(out)
-    text = render(out, folders(out))
-    size = len(text.encode())
+    whole = render(out, folders(out))
+    size = len(whole.encode())
     if size > LIMIT:
         raise NoReport(f"the page has {size/1e6:.1f} MB, {LIMIT/1e6:.1f} are allowed: draw smaller figures")
-    path = out/"index.html"
-    write_atomic(path, text)
-    return path
+    return whole
 
 
 def render(out: Path, known: list[Folder]) -> str:
@@ -66,7 +57,7 @@ def render(out: Path, known: list[Folder]) -> str:
         places=cited(claims), papers=Counter(map(paper_of, claims["source"])),
         counts=Counter(claims["verdict"]), verdicts=VERDICTS, claims_made=Sheet(out/"claims.csv").made,
         texts={name: document(out/f"{name}.md", out) for name in TEXTS},
-        words={kind: words.of(kind).values() for kind in ("method", "variation", "scene", "quantity")},
+        words={kind: names.words(kind).values() for kind in ("method", "variation", "scene", "quantity")},
         paper=paper_of, value_of=value_of, short=short, embedded=embedded,
         leads=lambda name: target(name, out, out),
         style=(PARTS/"style.css").read_text(),
@@ -137,16 +128,13 @@ def figures(folder: Folder, claims: pd.DataFrame) -> list[Shown]:
         caption_, sheets, code = f"{png.stem}: {folder.question}", folder.sheets, None
         if png.stem in listed:
             drawing = listed[png.stem]
-            caption_, code = caption(drawing), (source(drawing.draw, png), drawing.draw.__name__)
+            file = inspect.getsourcefile(drawing.draw) or ""
+            code = os.path.relpath(file, png.parent.parent.resolve()), drawing.draw.__name__
+            caption_ = caption(drawing)
             sheets = [sheet for sheet in sheets if sheet.stem in drawing.tables]
         sentence = filled(see.get(png.stem, caption_), claims)
         shown.append(Shown(png, size_of(png), sentence, caption_, sheets, code))
     return shown
-
-
-def source(draw: Any, png: Path) -> str:
-    """Path of a function's file, relative to the folder of the page, which is above that of the figure."""
-    return os.path.relpath(inspect.getsourcefile(draw) or "", png.parent.parent.resolve())
 
 
 def size_of(path: Path) -> tuple[int, int]:
@@ -166,8 +154,7 @@ def embedded(path: Path) -> str:
 
 def address(kind: str, content: bytes) -> str:
     """Data URL of a content."""
-    text = base64.b64encode(content).decode()
-    return f"data:{kind};base64,{text}"
+    return f"data:{kind};base64,{base64.b64encode(content).decode()}"
 
 
 def ffmpeg() -> ModuleType:

@@ -1,13 +1,11 @@
-"""results/tables.md: for each table, what a row is, its columns, and their units. No solver runs."""
+"""Tables of results/: tables.md says for each what a row is, its columns, and their units. No solver runs."""
 import csv
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from studies.kit.csvfile import write_atomic
 from studies.kit.study import study_of
 from studies.kit.table import Table
 from studies.report.inventory import FIRST, NoReport
-from studies.report.page import FILMS
 
 #: column -> (meaning, unit), for all tables without a meaning of their own for the column
 COLUMNS: dict[str, tuple[str, str]] = {}
@@ -25,6 +23,10 @@ def speed(name: str, about: str) -> Table:
                     about=f"A time, or another number. {about}.")
 
 
+#: table of films: caption and numbers of each
+FILMS = Table.of("films", "method", "caption ra rows grid_rows t_end last_ke last_ke_grid",
+                 about="A film of convection beside the grid.",
+                 means={"t_end": ("free-fall times that it shows", "")})
 #: folder -> tables that no study fills
 OTHERS = {
     "bench": [speed("spam_speed", "Smooth particles beside LAMMPS"),
@@ -46,15 +48,8 @@ OTHERS = {
 HEAD = Path(__file__).parent/"sentences"/"tables.md"
 
 
-def write_tables(out: Path) -> Path:
-    """Write tables.md into a folder; return its path."""
-    path = out/"tables.md"
-    write_atomic(path, text())
-    return path
-
-
-def text() -> str:
-    """Text of the whole file."""
+def text(out: Path | None = None) -> str:
+    """Text of the whole file, the same for every folder of results."""
     parts = [HEAD.read_text()]
     for folder, tables in folders():
         parts.append(f"\n## {folder}\n")

@@ -4,13 +4,13 @@ import os
 import re
 from collections.abc import Iterator
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from markdown_it import MarkdownIt
 from markupsafe import Markup
 from PIL import Image
 
-from studies.build import words
+from studies.build import names
 from studies.kit.key import ROOT
 from studies.kit.sweep import RESULTS
 from studies.report.inventory import HIDDEN, NoReport
@@ -70,7 +70,7 @@ def html(text: str, home: Path, out: Path) -> Markup:
 def explained(code: re.Match[str]) -> str:
     """Name of a method or id of a claim, linked to its explanation; other code as it is."""
     name = code[1]
-    if name in words.METHODS or name in words.VARIATIONS:
+    if name in names.METHODS or name in names.VARIATIONS:
         return f'<a class="word" href="#word-{name}">{code[0]}</a>'
     return f'<a class="word" href="#claim-{name}">{code[0]}</a>' if name.startswith(CLAIM) else code[0]
 
@@ -92,21 +92,14 @@ def target(href: str, home: Path, out: Path) -> str:
 # --- examples ----------------------------------------------------------------------------------------
 
 
-class Example(NamedTuple):
-    """An example: name, description, script and picture."""
-    name: str
-    about: str
-    script: str
-    picture: Path
-
-
-def examples(out: Path) -> Iterator[Example]:
-    """Examples that have a picture; the first paragraph of the docstring is the description."""
+def examples(out: Path) -> Iterator[dict[str, Any]]:
+    """Name, description, script and picture of examples that have one; the first paragraph of the docstring
+    is the description."""
     for path in scripts():
         script, picture = path.read_text(), out/"gallery"/f"{path.stem}.png"
         about = (ast.get_docstring(ast.parse(script)) or path.stem).split("\n\n")[0].split("\n`")[0]
         if picture.exists():
-            yield Example(path.stem, " ".join(about.split()), script, picture)
+            yield {"name": path.stem, "about": " ".join(about.split()), "script": script, "picture": picture}
 
 
 def write_gallery(out: Path) -> list[Path]:

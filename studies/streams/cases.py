@@ -15,8 +15,7 @@ import numpy as np
 
 from continuum.fluid import Fields
 from particles.run import Divergence, Plan, run
-from studies.build import variant
-from studies.build.answers import of_one_mass
+from studies.build import of_one_mass, variant
 from studies.build.grid import Gridded
 from studies.build.setting import Ready
 from studies.build.spam import Variant

@@ -18,7 +18,7 @@ from continuum.fluid import ConstEta, Fields
 from continuum.scene import RayleighBenard
 from continuum.sides import HeatPath, Periodic, Sides, Sliding
 from particles.fields import kinetic_energy
-from studies.build.answers import FALLS
+from studies.build import FALLS
 from studies.build.scenes import SOUND, Scene, Start
 from studies.build.setting import shaken
 from studies.front.observed import nusselt

@@ -4,8 +4,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from continuum.published import published
-from studies.build.names import ENERGY, ra_axis
-from studies.build.words import name_of
+from studies.build.names import ENERGY, name_of, ra_axis
 from studies.kit.figure import Drawings, Overview
 from studies.kit.table import Tables
 from studies.rb import looks

@@ -9,9 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from studies.build.moving import DRIFT_MOTIONS, MOTIONS
-from studies.build.names import ENERGY
+from studies.build.names import ENERGY, name_of
 from studies.build.spam import VARIANTS
-from studies.build.words import name_of
 from studies.kit.figure import figure
 from studies.kit.table import Tables, groups
 from studies.rb import looks

@@ -7,7 +7,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from studies.build.words import name_of
+from studies.build.names import name_of
 from studies.kit import fits
 from studies.kit.figure import LINES, below, figure, look, numbered, plain_ticks
 from studies.kit.table import Tables

@@ -7,7 +7,7 @@ from continuum.scene import Periodic
 from particles.observe import Grid, Smoothed, wall_layers
 from particles.run import Run
 from particles.smooth.spam import Spam
-from studies.build.measure import at_end, flowing, turns
+from studies.build.measure import flowing, turns
 from studies.build.names import HALVES
 from studies.build.setting import Ready
 from studies.build.spam import PRINTED, Variant
@@ -84,7 +84,7 @@ class SpamRun(AveragedRun, table="kinetic_energy"):
 
     def last(self, chosen: Spam, done: Run) -> list[dict]:
         """Fluid particles and what is behind the walls, with velocities and temperatures, at the end."""
-        sums, _ = at_end(chosen, done)
+        sums, *_ = chosen.look(done.state)
         around, L = sums.around, self.scene.L
         number = np.arange(len(around.x))
         kinds = np.select([number < sums.n, number < around.rows], ["fluid", "fixed"], "image")
