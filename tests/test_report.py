@@ -203,10 +203,12 @@ def test_a_film_that_is_missing_or_broken(small, capsys):
         assert "gone.mp4 is no film" in refused(small, capsys)
 
 
-def test_a_film_that_cannot_be_written_leaves_the_one_that_was_there(tmp_path, monkeypatch):
+@pytest.mark.parametrize("fails", [("-f", "mp4", "-preset", "nonsense"), ("-f", "mp4", "-frames:v", "1")])
+def test_a_film_that_cannot_be_written_leaves_the_one_that_was_there(tmp_path, monkeypatch, fails):
+    """Nor does one with a part of the pictures, which ffmpeg leaves without a word, replace it."""
     path = tmp_path/"film.mp4"
     path.write_bytes(b"older")
-    monkeypatch.setattr(films, "ENCODING", ("-f", "mp4", "-preset", "nonsense"))
+    monkeypatch.setattr(films, "ENCODING", fails)
     with pytest.raises(ValueError, match=r"film.mp4 could not be written .*rm .venv/ready-films"):
         films.write(path, [Image.new("RGB", (640, 320))]*2)
     assert path.read_bytes() == b"older" and [*tmp_path.iterdir()] == [path]

@@ -15,8 +15,8 @@ from particles.integral.fluctuating import Partners, mismatch
 from particles.integral.interpolants import W
 from particles.integral.points import lattice, random
 from particles.weights import Lucy, WendlandC2
-from studies.build.setting import Disorder
 from studies.build.fixed import neighbours
+from studies.build.setting import Disorder
 from studies.kit.case import Case, Report
 from studies.kit.table import Row
 

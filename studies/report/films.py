@@ -197,6 +197,9 @@ def write(path: Path, frames: Sequence[Picture.Image]) -> None:
         for frame in [*frames, *[frames[-1]]*HOLD]:
             film.send(frame.tobytes())
         film.close()
+        written = FFMPEG.count_frames_and_secs(part)[0]
+        if written != len(frames) + HOLD:       # ffmpeg reports no failure at the end, such as a full disk
+            raise RuntimeError(f"it has {written} of {len(frames) + HOLD} pictures")
         os.replace(part, path)
     except (OSError, RuntimeError) as error:
         cause = str(error).splitlines()[0]
