@@ -129,6 +129,15 @@ ENTROPY = (
           value=least("entropy", "least", transport="nested"), because="the second law",
           statement="nested stress and heat current destroy entropy in no state: least production over the "
                     "sum of its sizes, smooth, random and sought states with T within a factor of 9"),
+    Claim(id="own-entropy-brackets", source="RR98 Eqs 34-36", at_least=0, because="the second law",
+          value=least("entropy", "least", transport="brackets"),
+          statement="the brackets of mass, momentum and energy destroy entropy in no state: least production "
+                    "over the sum of what cancels in it, smooth, random and sought states"),
+    Claim(id="own-entropy-dissipated", source="Barth 1999", at_most=0,
+          value=largest("entropy", "negative", transport="dissipation"),
+          because="a sum of squares of jumps for each edge",
+          statement="no edge destroys entropy by switched dissipation: largest share of edges that do, "
+                    "smooth, random and worst states, lattice and irregular triangles"),
     Claim(id="own-entropy-conserved", source="Tadmor 1987", at_most=1e-12,
           value=largest("entropy", "abs(least)", transport=("crossed pressure", "mean pressure")),
           because="round-off of some hundred edges",
