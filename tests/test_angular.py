@@ -7,6 +7,7 @@ from particles.integral.edge_makers import MAKERS, plain
 from particles.integral.points import Points, lattice
 from particles.integral.rr98_moving_plain import MOTIONS
 from particles.weights import Lucy
+from studies.build.setting import DISORDERS
 from studies.conservation.forces import (
     STILL,
     VISCOUS,
@@ -44,7 +45,7 @@ def test_torques_of_edges_are_those_of_their_ends():
 def test_halves_of_a_symmetric_stress_on_exact_edges_and_forces_along_edges_have_no_torque(maker, still,
                                                                                            turning):
     """On exact edges friction along velocities has none where the Laplacian of places is zero."""
-    case = EdgeTorque(make=MAKERS[maker], points="jittered-0.3", seed=4)
+    case = EdgeTorque(maker=MAKERS[maker], points=DISORDERS["jittered-0.3"], seed=4)
     torques = {row["exchange"]: row["torque"] for row in rows_of(case, "torques")}
     assert max(torques[name] for name in still) < ZERO
     assert torques[turning] > BROKEN
@@ -52,13 +53,13 @@ def test_halves_of_a_symmetric_stress_on_exact_edges_and_forces_along_edges_have
 
 @pytest.mark.parametrize("motion", MOTIONS)
 def test_motions_keep_angular_momentum_where_masses_stay(motion):
-    case = MotionTorque(motion=motion, kind=MOTIONS[motion], law=STILL)
+    case = MotionTorque(motion=motion, law=STILL)
     torque = rows_of(case, "motion_torques")[0]["torque"]
     assert torque < ZERO if motion in ("carried", "constant-mass") else torque > BROKEN
 
 
 def test_smooth_particles_push_along_pairs_and_rub_across():
-    found = [rows_of(MotionTorque(motion="spam", kind=None, law=law), "motion_torques")[0]["torque"]
+    found = [rows_of(MotionTorque(motion="spam", law=law), "motion_torques")[0]["torque"]
              for law in (STILL, VISCOUS)]
     assert found[0] < ZERO and found[1] > BROKEN
 
