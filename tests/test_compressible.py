@@ -171,14 +171,6 @@ def test_three_nusselt_numbers_of_steady_rolls_agree_to_second_order(grids):
     assert losses[0]/losses[-1] > 3 and losses[-1] < 0.01
 
 
-def test_a_run_goes_on_where_it_stopped():
-    whole = run(GAS, 8, until=Time(40.0, samples=4), dt=1.0)
-    half = run(GAS, 8, until=Time(20.0, samples=2), dt=1.0)
-    rest = run(GAS, 8, until=Time(20.0, samples=2), dt=1.0, start=half.fields)
-    for a, b in zip((*whole.fields.at, whole.fields.cells), (*rest.fields.at, rest.fields.cells)):
-        assert np.array_equal(a, b)
-
-
 def test_interpolation(grids):
     fine, coarse = grids[-1].fields, grids[0].fields
     for a, b in zip(interpolate(fine, *np.meshgrid(fine.x, fine.y)), fine.at):

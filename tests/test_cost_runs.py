@@ -22,7 +22,7 @@ from studies.cost.rolls import (
     reference,
 )
 from studies.cost.seconds import Flock, TwoThreads, per_step
-from studies.cost.tables import GRID, LATTICE, MAC, NEAREST, PYPDE, SPECTRAL, WIDE, growth_laws
+from studies.cost.tables import GRID, MAC, NEAREST, PYPDE, growth_laws
 
 COLUMNS = {table.name: table.columns for table in tables.TABLES}
 
@@ -170,15 +170,6 @@ def test_convection_of_pypde_is_of_second_order():
     assert np.log2(errors[0]/errors[1]) == pytest.approx(2, abs=0.3)
 
 
-@pytest.mark.parametrize("scene", ["conduction", "couette"])
-@pytest.mark.parametrize("name", [GRID, NEAREST, LATTICE, WIDE])
-def test_errors_between_plates_are_of_second_order(scene, name):
-    """Between 48 and 96 rows. 0.2: terms of fourth order are 16 % of the error of heat at 48, h = 3 a."""
-    races = (race(scene, name, rows) for rows in (48, 96))
-    coarse, fine = (rms(*one.made().result(one.first).residuals.values()) for one in races)
-    assert np.log2(coarse/fine) == pytest.approx(2, abs=0.2)
-
-
 T = np.arange(1, 361)/OFTEN
 
 
@@ -194,15 +185,6 @@ def test_flows_that_fluctuate_count_the_time_that_their_average_needs():
     done = Followed(T, 1 + 0.01*np.random.default_rng(1).normal(size=len(T)), None)
     coarse, fine = (HeatedLayer(late=SETTLED).needed(done, error) for error in (0.1, 2e-3))
     assert coarse < 0.05*END and fine > 0.05*END
-
-
-def test_the_spectral_method_errs_exponentially_less_with_more_functions():
-    """K of 4, 8, 12 functions: a third with every four would be second order; `paper` goes on to 1e-9."""
-    found = [rows_of(race("convection", SPECTRAL, n)) for n in (4, 8, 12)]
-    errors = [abs(error["K"]) for _, error in found]
-    assert errors[2] < errors[1]/10 < errors[0]/100 and errors[2] > 1e-6
-    row, = found[2][0]["runs"]
-    assert set(row) == set(COLUMNS["runs"]) and row["run_s"] > 0
 
 
 def test_rolls_are_compared_where_velocities_differ_least():

@@ -13,7 +13,6 @@ from continuum.gas.fields import at_nodes, initial, kinetic_energy, placed
 from continuum.gas.fields import block as as_block
 from continuum.scene import RayleighBenard, Torus, Walls
 from particles.dissipative.dpd import Dpd
-from particles.dissipative.edpd import Edpd
 from particles.fields import kinetic_energy as of_fields
 from particles.integral.bodies import held
 from particles.integral.closed_faces import Moving
@@ -64,7 +63,7 @@ MOVING = {**{f"rr98-{name}": Drift(motion=motion, **EVERYWHERE) for name, motion
           **{f"plain-{name}": kind(box=BOX, weight=WendlandC2.of(h=2.9), **FLUID) for name,
              kind in MOTIONS.items()},
           "closed-faces": Moving(**EVERYWHERE)}
-DPD = {"dpd": Dpd(box=(5.0, 4.0)), "edpd": Edpd(box=(5.0, 4.0)), "dpd-3d": Dpd(box=(3.5, 3.0, 4.0))}
+DPD = {"dpd": Dpd(box=(5.0, 4.0)), "dpd-3d": Dpd(box=(3.5, 3.0, 4.0))}
 SPAM = Spam(**EVERYWHERE)
 
 

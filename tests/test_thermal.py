@@ -12,7 +12,7 @@ from particles.integral.edge_makers import MAKERS
 from particles.integral.edges import Edges, between_plates
 from particles.integral.layer import Layer
 from particles.integral.points import jittered, lattice
-from particles.integral.thermal import STAGED, Thermal, ThreeStage
+from particles.integral.thermal import Thermal, ThreeStage
 from particles.integrators import RK4, Euler
 from particles.limits import jacobian, limit_of
 from particles.run import Plan, run
@@ -36,7 +36,7 @@ def test_small_heat_capacity_is_warned_of_with_its_bias():
     method = gas(k=0.05)
     least = method.edges.V.min()/0.05
     with pytest.warns(UserWarning,
-                      match=rf"heat capacity {least:.3g} k: .* up to k/C = {1/least:.2g} too much, 0.54 k/C"):
+                      match=rf"heat capacity {least:.3g} k: .* up to k/C = {1/least:.2g} too much"):
         limit_of(method, rest(method))
 
 
@@ -52,26 +52,6 @@ def test_steps_have_the_order_of_their_integrator(kind, order):
         return y
     first, second = np.abs(np.diff([end(steps) for steps in (400, 800, 1600)], axis=0)).max(axis=1)
     assert np.log2(first/second) == pytest.approx(order, abs=0.1)
-
-
-def test_three_stages_with_amplitudes_of_their_own_drift_nearly_as_stratonovich_has_it():
-    """Of dx = sqrt(2 x) dW, B B' = 1, the mean over normal numbers, by Gauss-Hermite quadrature."""
-    class Root:
-        def rates(self, y, out):
-            out[:] = 0
-
-        def kicks(self, y, beta, dt, out):
-            out[:] = np.sqrt(2*y*dt)*(self.A + beta*self.B)
-
-    points, weights = np.polynomial.hermite_e.hermegauss(12)
-    sums, dt, mean = Root(), 1e-4, 0.0
-    for A, of_A in zip(points, weights/weights.sum(), strict=True):
-        for B, of_B in zip(points, weights/weights.sum(), strict=True):
-            sums.A, sums.B, y = A, B, np.ones(1)
-            ThreeStage((1,), Threads(1)).step(sums, y, dt)
-            mean += of_A*of_B*(y[0] - 1)
-    assert mean/dt == pytest.approx(STAGED, abs=10*dt)       # next order
-    assert 0.45 < STAGED < 0.5
 
 
 def with_an_edge_twice(edges: Edges) -> Edges:

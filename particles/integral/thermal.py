@@ -26,8 +26,6 @@ BETAS = tuple(float(b) for b in ((2*np.sqrt(2) + np.sqrt(3))/5, (-4*np.sqrt(2) +
                                  (np.sqrt(2) - 2*np.sqrt(3))/10))
 #: shares of the state before the step in stages 1, 2, 3; the rest is an Euler step from the stage before
 OLD = (0.0, 3/4, 1/3)
-#: c in the drift <dx> = c B B' dt of three stages, each with B of its own state: Ito has 0, Stratonovich 1/2
-STAGED = (1 + BETAS[0]*BETAS[1])/6 + (2 + BETAS[2]*(BETAS[0] + BETAS[1]))/6
 
 
 class ThreeStage:
@@ -163,8 +161,7 @@ def _(method: Thermal, start: np.ndarray) -> float:
     least = float((method.edges.V*flow.rho*C).min())
     if method.k*LEAST_CAPACITY > least:
         warnings.warn(f"a point has the heat capacity {least/method.k:.3g} k: its energy fluctuates by up to "
-                      f"k/C = {method.k/least:.2g} too much, {1 - STAGED:.2f} k/C where heat goes "
-                      f"along edges; take C >= {LEAST_CAPACITY} k", stacklevel=2)
+                      f"k/C = {method.k/least:.2g} too much; take C >= {LEAST_CAPACITY} k", stacklevel=2)
     eta, zeta, kappa = method.coefficients(flow)
     chi = np.maximum(2*eta + zeta, kappa/C)/flow.rho
     fast = sound_speed(method.eos, flow.rho, e) + np.sqrt((flow.v**2).sum(axis=1))

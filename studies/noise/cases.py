@@ -19,7 +19,7 @@ from studies.kit.case import Case
 from studies.kit.table import Table
 from studies.noise import dissipative, partners
 from studies.noise.covariance import BelowOnset, Steps
-from studies.noise.dissipative import AtRest, Conduction, LongRun, Shared
+from studies.noise.dissipative import AtRest, LongRun
 from studies.noise.partners import Formula, Partnership, PrintedWaves
 from studies.noise.sampling import Capacity, Nonlinear
 
@@ -39,8 +39,6 @@ FORMULAS = {
 GOOD = (GrootWarren, GrootWarren65, VelocityVerlet, Shardlow, KickDriftFrictionDriftKick)
 LIQUID = (0.01, 0.02, 0.03, 0.04, 0.06, 0.08)
 HUNDRED = (100/3)**(1/3)    # side of a box of 100 particles, as in the example of Allen & Tildesley
-#: particles in rc^3 and repulsion: the usual fluid, and the example of LAMMPS's manual, density 4, rc = 1.58
-DENSITIES = ((3.0, 25.0), (15.8, 29.6))
 
 
 def cases(size: str) -> list[Case]:
@@ -56,8 +54,7 @@ def quick() -> list[Case]:
         Nonlinear(counts=(5, 5), share=0.1, k=1e-3, time=115.0),
         Capacity(C=20.0, steps=400),
         *temperatures((0.02, 0.04, 0.06), side=5.0, steps=1000),
-        LongRun(integrator=Shardlow, side=4.0, time=20.0),
-        Shared(time=20.0), Conduction(rho=3.0, a=25.0, seed=1)]
+        LongRun(integrator=Shardlow, side=4.0, time=20.0)]
 
 
 def paper() -> list[Case]:
@@ -72,9 +69,7 @@ def paper() -> list[Case]:
         AtRest(integrator=Shardlow, side=HUNDRED, time=4000.0),
         # 240 was too short to tell an error of 1 % in kT
         *(LongRun(integrator=one, time=500.0 if one is KickDriftFrictionDriftKick else 1500.0)
-          for one in GOOD),
-        Shared(time=200.0),
-        *(Conduction(rho=rho, a=a, seed=seed) for rho, a in DENSITIES for seed in (1, 2, 3, 4))]
+          for one in GOOD)]
 
 
 def formulas() -> Iterator[Case]:
@@ -145,14 +140,4 @@ TABLES = (
              about="A steady state of dissipative particles at one step."),
     Table.of("long", "integrator side dt", MEANS,
              means=HOT | {"P": ("pressure, with rho kT as it is asked for", "kT/rc^3")},
-             about="A long run of dissipative particles at the usual step."),
-    Table.of("shared", "a dt", "drift ratio ratio_err",
-             about="Dissipative particles with energies of their own, at first of two temperatures.",
-             means=HOT | {"a": ("repulsion", "kT/rc"),
-                          "drift": ("largest change of kinetic and internal energy, relative", ""),
-                          "ratio": ("kT of velocities over 1/<1/T_i> of energies", "")}),
-    Table.of("conduction", "rho a given seed", "n diffusivity",
-             about="A wave of temperature of such particles that decays.",
-             means=HOT | {"rho": ("particles in rc^3", ""), "a": ("repulsion", "kT/rc"),
-                          "given": ("diffusivity of temperature by the printed formula", "rc (kT/m)^(1/2)"),
-                          "diffusivity": ("the same from the decay", "rc (kT/m)^(1/2)")}))
+             about="A long run of dissipative particles at the usual step."))

@@ -1,17 +1,7 @@
 """What RR98 says of noise and of its steps, judged    [RR98 Eqs 20-25, 40-44, Sec. III B]"""
 from typing import Any
 
-from studies.kit.ask import (
-    Value,
-    farthest_per,
-    first,
-    largest,
-    largest_per,
-    one,
-    over_seeds,
-    power,
-    spread,
-)
+from studies.kit.ask import Value, farthest_per, first, largest, largest_per, one, power, spread
 from studies.kit.claim import Claim
 
 MOMENTA = ("stress", "friction", "stress+friction")
@@ -79,35 +69,7 @@ LONG_WAVES = (
         "energy at T = 0.7: variance over its due, a line of nearest neighbours; a factor 2 T of the "
         "variance of Eq. 25 is missing"),
 )
-FORMULA = "kappa = 315 k_B nu/(2 pi rho C_v r_ct^5)/Pr"
-#: of particles with energies of their own
-THERMAL = (
-    Claim(id="espanol-edpd-energy", source="Espanol 1997", at_most=1e-12,
-          because="round-off of 10 000 steps",
-          printed="invested in raising the internal energy of the particles",
-          value=one("shared", "drift", err="0", a=0),
-          statement="what friction takes goes into internal energies: largest change of the total, relative, "
-                    "10 000 steps, without repulsion"),
-    Claim(id="own-edpd-temperature", source="Avalos & Mackie 1997", expect=1, within=0.01,
-          because=PERCENT, value=one("shared", "ratio", a=0), after="a shorter run had been seen",
-          statement="velocities and internal energies come to one temperature: kT over 1/<1/T_i>, "
-                    "without repulsion, dt = 0.02"),
-    Claim(id="li-edpd-conduction", source="Li et al. 2014, Eq. 15", printed=FORMULA, expect=1, within=0.05,
-          value=over_seeds("conduction", "diffusivity/given", err="0", rho=15.8),
-          because="5 %: the formula takes neighbours for evenly spread",
-          after="runs of three seeds at a density of 16 had been seen",
-          statement="heat is conducted as the formula has it: diffusivity from a wave's decay over the "
-                    "formula's, 15.8 particles in rc^3, as in the manual of LAMMPS"),
-    Claim(id="bonet-avalos-edpd-few", source="Bonet Avalos & Mackie 1999", at_least=0.1,
-          printed="Significant differences are found for small number of interacting particles",
-          value=abs(over_seeds("conduction", "diffusivity/given", err="0", rho=3) - 1),
-          because="a tenth is significant where the formula holds to 5 %",
-          after="runs of three seeds had been seen",
-          statement="the formula fails where few particles interact: |diffusivity over the formula's - 1|, 3 "
-                    "particles in rc^3, a = 25"),
-)
 CLAIMS = (
-    *THERMAL,
     *LONG_WAVES,
     Claim(id="rr98-fluct-eq20-small", source="RR98 Eq. 20", printed="small fluctuations", headline=True,
           expect=1, within=0.03,

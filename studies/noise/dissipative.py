@@ -1,4 +1,4 @@
-"""Dissipative particles: kT, pressure, heat, and whether RR98's equations contain them [RR98 Secs III B, V]
+"""Dissipative particles: kT, pressure, and whether RR98's equations contain them    [RR98 Sec. III B]
 
 The fluid has a = 25, rho = 3, gamma = 4.5, rc = kT = 1, unit masses, in a periodic box.
 """
@@ -15,12 +15,10 @@ from particles.dissipative.dpd import (
     laplacian,
     pressure,
 )
-from particles.dissipative.edpd import Edpd
 from particles.dissipative.integrators import Shardlow
 from particles.noise import uniform_of_pair
 from particles.run import Plan, Run, run
 from particles.threads import Threads
-from studies.kit import fits
 from studies.kit.case import Case, Report
 from studies.kit.stats import Measured, mean, with_errors
 from studies.kit.table import Row
@@ -147,70 +145,3 @@ def blocks(weight: np.ndarray, e: np.ndarray) -> np.ndarray:
     pairs = weight*e[:, None]*e[None]                       # (d, d, n, n)
     own = pairs.sum(axis=3)[..., None]*np.eye(n)
     return (own - pairs).transpose(0, 2, 1, 3).reshape(d*n, d*n)
-
-
-# --- particles with energies of their own: the entropy of each is C ln e ------------------------
-
-GIVEN = 10.0                # diffusivity of temperature by the printed formula
-BOX = (12.0, 3.0, 3.0)
-K = 2*np.pi/BOX[0]
-MANY, FEW = 1e4, 50.0       # heat capacities of particles whose T hardly fluctuates, and whose T does
-
-
-def kappa_of(diffusivity: float, C: float, rho: float = RHO) -> float:
-    """kappa from diffusivity = 2 pi rho C kappa/315    [Li et al. 2014, Eq. 15, and LAMMPS's manual]"""
-    return 315*diffusivity/(2*np.pi*rho*C)
-
-
-class Shared(Case, table="shared", same="a dt"):
-    """A closed fluid whose halves start at different temperatures; means over the second half of the run."""
-    time: float
-    a: float = 0.0
-    dt: float = 0.02
-
-    def measure(self, report: Report) -> Iterator[Row]:
-        method = Edpd(box=(6.0, 6.0, 6.0), a=self.a, C=FEW, kappa=kappa_of(0.1, FEW))
-        start = method.random_start(RHO)
-        start[-1] *= np.where(start[0] > 0, 1.5, 0.5)
-        series = {"energy": energy, "kinetic": kinetic_temperature, "internal": internal_temperature}
-        plan = Plan(dt=self.dt, steps=round(self.time/self.dt), every=10, series=series)
-        done = run(method, start, plan, report)
-        total, kinetic, internal = map(np.array, done.series.values())
-        late = slice(len(total)//2, None)
-        yield {"drift": np.abs(total/total[0] - 1).max(),
-               **with_errors(ratio=mean((kinetic/internal)[late]))}
-
-
-def energy(sums, state: np.ndarray) -> float:
-    """Kinetic and internal energy of all particles."""
-    return float((sums.velocity(state)**2).sum()/2 + state[-1].sum())
-
-
-def internal_temperature(sums, state: np.ndarray) -> float:
-    """1/<1/T_i>, which is T in equilibrium; <T_i> is T (1 + 1/C)    [Avalos & Mackie 1997]"""
-    return float(1/np.mean(sums.method.C/state[-1]))
-
-
-class Conduction(Case, table="conduction", same="rho a seed"):
-    """Diffusivity of temperature from the decay of a wave along x, to a third or less."""
-    rho: float
-    a: float
-    seed: int
-
-    def measure(self, report: Report) -> Iterator[Row]:
-        method = Edpd(box=BOX, a=self.a, C=MANY, kappa=kappa_of(GIVEN, MANY, self.rho),
-                      seed=self.seed)
-        start = method.random_start(self.rho, self.seed)
-        start[-1] *= 1 + 0.1*np.sin(K*start[0])
-        plan = Plan(dt=0.002, steps=500, every=10, series={"wave": wave})    # dt resolves what pairs exchange
-        done = run(method, start, plan, report)
-        t, size = np.array(done.times), np.array(done.series["wave"])
-        late = (t > t[-1]/10) & (size > 0.01)
-        rate = fits.line(t[late], np.log(size[late])).slope.value
-        yield {"given": GIVEN, "n": start.shape[1], "diffusivity": -rate/K**2}
-
-
-def wave(sums, state: np.ndarray) -> float:
-    """Amplitude of the wave of T, without the mean of T: particles' random places would add a part of it."""
-    T, shape = state[-1]/sums.method.C, np.sin(K*state[0])
-    return float(np.sum((T - T.mean())*shape)/np.sum(shape**2))

@@ -17,24 +17,11 @@ from studies.operators.makers import FACES, SETS, SMOOTH, MakerErrors, WallHeat
 from studies.operators.makers import MAKERS as TODAY
 from studies.operators.points import FLOWS, WAYS, Entropy, LayerGrowth, OneKernel, SoundGrowth
 from studies.operators.transport import BETWEEN, Decay, Drive, EulerLimit, ShearFlow, of_edges
-from studies.operators.weights import (
-    Continuum,
-    EdgeForces,
-    EdgeViscosities,
-    ExponentialWave,
-    LatticeSums,
-    of_weights,
-)
+from studies.operators.weights import Continuum, ExponentialWave, LatticeSums, of_weights
 
 SEEDS = (1, 2, 3)
 #: by dimension: range of the weight, numbers of cells across the wave
 CELLS = {1: (3.0, (32, 64, 128, 256)), 2: (3.0, (32, 48, 64, 96)), 3: (2.0, (16, 20, 24, 32))}
-#: A(r) and B(r) of Eq. 51
-FORCES = (EdgeForces("A 1/r", (1.0, -1), (0.0, 0)),
-          EdgeForces("B 1/r", (0.0, 0), (1.0, -1)),
-          EdgeForces("A and B 1/r", (3.0, -1), (1.0, -1)),
-          EdgeForces("A 1, B r^2", (1.0, 0), (2.0, 2)),
-          EdgeForces("A r, B 1", (5.0, 1), (1.0, 0)))
 
 #: (points, range of the weight) in 1D, 2D, 3D of random states
 STATES = (((20,), 2.7), ((10, 12), 2.7), ((6, 6, 7), 2.2))
@@ -66,11 +53,10 @@ def weights(quick: bool) -> Iterator[Case]:
 
 
 def equations(quick: bool) -> Iterator[Case]:
-    """Terms against exact derivatives, and viscosities of forces along edges."""
+    """Terms against exact derivatives."""
     for d, (h, cells) in CELLS.items():
         if d < 3 or not quick:
             yield from (EquationErrors(d=d, weight=WendlandC2, h=h, cells=n) for n in cells)
-    yield from (EdgeViscosities(d=d, form=forces, h=6.0) for d, forces in product((2, 3), FORCES))
 
 
 def points(quick: bool) -> Iterator[Case]:

@@ -32,9 +32,6 @@ EQUATIONS = Table.of("equations", f"{TERM} cells", "error ratio",
 ORDERS = Table.of("orders", TERM, "order order_err ratio ratio_err",
                   about="The order of such a term in the spacing at fixed h/a.",
                   means={"ratio": ("projection on the exact term, extrapolated to no spacing", "")})
-FRICTION = Table.of("friction", "d form h", "eta zeta eta_predicted zeta_predicted",
-                    about="Viscosities of forces A(r) e (e.v_ij) + B(r) v_ij [Eq. 51], by lattice sums.",
-                    means={"form": ("A and B as functions of r", ""), "eta": ("viscosity", "")})
 
 POINTS = "maker points d"
 ONE_KERNEL = Table.of("one_kernel", f"{POINTS} seed", "lost",
@@ -93,7 +90,7 @@ WALL_HEAT = Table.of("wall_heat", "maker points cells seed", "wall",
                             "wall": ("rms over both plates of Nu over the exact one, less 1", "")})
 WALL_ORDERS = Table.of("wall_orders", "maker points", "order order_err finest finest_err", **ORDER)
 
-ALL = (CONTINUUM, LATTICE, EXPONENTIAL, NUMBERS, EQUATIONS, ORDERS, FRICTION, ONE_KERNEL, GROWTH,
+ALL = (CONTINUUM, LATTICE, EXPONENTIAL, NUMBERS, EQUATIONS, ORDERS, ONE_KERNEL, GROWTH,
        GROWTH_MEANS, EULER, NESTED_GROWTH, WAVES, COEFFICIENTS, TRANSPORT_ORDERS, SHEAR, SHEAR_MEANS,
        SHEAR_ORDERS, ENTROPY, MAKERS, MAKER_ORDERS, WALL_HEAT, WALL_ORDERS)
 

@@ -1,4 +1,4 @@
-"""RR98's weights as integrals and as sums over lattices: moments, errors, friction    [Eqs 1-6, 28-32, 51]"""
+"""RR98's weights as integrals and as sums over lattices: moments, errors    [Eqs 1-6, 28-32]"""
 from collections.abc import Callable, Iterator
 from functools import cache
 from math import isqrt
@@ -206,37 +206,3 @@ class ExponentialWave(Case, table="exponential", same="wavelength r0"):
         at = around(span(weight), 2)
         w = W(weight, at.r)
         yield {"d": 2, "plain": abs(gradient_symbol(w, at, 2*np.pi/self.wavelength) - 1)}
-
-
-class EdgeForces(NamedTuple):
-    """A(r) and B(r) of Eq. 51, each given as (c, p) of c (r/h)^p."""
-    name: str
-    A: tuple[float, int]
-    B: tuple[float, int]
-
-
-class EdgeViscosities(Case, table="friction", same="d form h"):
-    """Viscosities of forces A(r) e (e.v_ij) + B(r) v_ij [RR98 Eq. 51]: of long waves, and by M_A, M_B."""
-    d: int
-    form: EdgeForces
-    h: float
-
-    def measure(self, report: Report) -> Iterator[Row]:
-        d, weight = self.d, WendlandC2.of(h=self.h, d=self.d)
-        eta, zeta = self.of_waves(weight)
-        M_A, M_B = (self.second_moment(weight, *X) for X in (self.form.A, self.form.B))
-        predicted = M_A/(2*d*(d + 2)) + M_B/(2*d)
-        yield {"eta": eta, "zeta": zeta, "eta_predicted": predicted,
-               "zeta_predicted": M_A/(d*(d + 2)) - (1 - 2/d)*predicted}
-
-    def of_waves(self, weight: Any) -> tuple[float, float]:
-        """eta and zeta of long waves along an axis of a lattice."""
-        d, at = self.d, around(self.h, self.d)
-        half, ex2 = at.number*W(weight, at.r)*at.r**2/2, (at.x/at.r)**2
-        A, B = (half*c*(at.r/self.h)**p for c, p in (self.form.A, self.form.B))
-        eta = A@(ex2*(1 - ex2))/(d - 1) + B@ex2
-        return eta, A@ex2**2 + B@ex2 - 2*(1 - 1/d)*eta
-
-    def second_moment(self, weight: Any, c: float, p: int) -> float:
-        """M_X = int W X r^2 dV."""
-        return integral(weight, self.d, lambda r: W(weight, r)*c*(r/self.h)**p*r**2).value

@@ -1,7 +1,7 @@
 """What RR98 says of its scheme on fixed points: brackets, transport, forces along edges    [Eqs 34-40, 51]"""
 from typing import Any
 
-from studies.kit.ask import Value, farthest, largest, largest_of, least, of, one, rows
+from studies.kit.ask import Value, farthest, largest, least, of, one, rows
 from studies.kit.claim import Claim
 from studies.kit.stats import CannotTell, Measured
 from studies.kit.table import Tables
@@ -46,11 +46,6 @@ def identified(maker: str) -> Value:
     """Largest relative error of both viscosities, waves of 32 a on jittered points, forces along edges."""
     return largest("coefficients", "abs(error)", err="error_err", maker=maker, points="jittered-0.3",
                    transport="pairwise", quantity=BOTH, wavelength=32.0)
-
-
-def apart(x: str) -> Value:
-    """Largest difference of a viscosity of long waves from that of the moments, over the size of both."""
-    return largest("friction", f"abs({x} - {x}_predicted)/(abs(eta_predicted) + abs(zeta_predicted))")
 
 
 @of
@@ -145,12 +140,6 @@ ENTROPY = (
                     "entropy in every state: largest production over the sum of what cancels in it"),
 )
 ALONG = (
-    Claim(id="rr98-eq51-identify", source="RR98 Eq. 51", printed="one cannot independently identify",
-          headline=True, at_least=0.1, value=largest_of(apart("eta"), apart("zeta")),
-          because="a tenth would leave them unidentified",
-          statement="the two viscosities cannot be told from A and B (A alone enters both): largest "
-                    "difference of eta, zeta of long waves on a lattice from M_A/2d(d+2) + M_B/2d, "
-                    "M_A/d(d+2) - (1 - 2/d) eta over their size, five forms, 2 and 3 dimensions, h = 6 a"),
     Claim(id="own-eq51-order", source="RR98 Eq. 51", expect=2, within=0.05, headline=True,
           value=order("friction, zeta 0", 2), because="the next order, (k h)^4, takes 0.01 of the slope",
           statement="forces along edges are right to second order in 2D, constant eta and zeta = 0: slope of "
