@@ -26,6 +26,7 @@ ALL = (
              about="A long run of a scheme: the largest change of each sum until its end.",
              means={"reached": ("steps until it diverged or heated so much that sound outran its step, or "
                                 "all", ""),
+                    "energy": ("largest change of energy over energy", ""),
                     "err": ("round-off of the sums themselves", "")}),
     Table.of("losses", "maker points seed", "steps reached lost",
              about="A long run without the second kernel of Eq. 14.",

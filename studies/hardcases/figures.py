@@ -35,8 +35,8 @@ KEY = ("A cell is the worst error of all sizes, starts and steps over the error 
        "limit. Allowed is a tenth, against the finest grid, the exact answer or theory; 4 spacings for the "
        "place of a wave without viscosity, 1 for that of a front. Lightest: right by all that is asked. "
        "ends: a run ended early. stops: the flow came to rest. no: the method refuses. ?: nothing to judge "
-       "by. Empty: not tried. Right of the line: with the entropy-stable flux. Methods tried in one or two "
-       "cases are in map.csv.")
+       "by. Empty: not tried. Right of the line: with the entropy-stable flux. Methods and cases that were "
+       "tried once or twice are in map.csv.")
 
 
 def judged(rows: pd.DataFrame) -> pd.DataFrame:

@@ -116,7 +116,7 @@ def over_points(flows: pd.DataFrame) -> Figure:
     decorate(layers, "convection", "irregular", ROWS)
     for axes in panels[:, 0]:
         axes.set_ylabel("relative error")
-    page.suptitle("Errors fall as rows$^{-2}$ on Delaunay edges, not on other edges\n"
+    page.suptitle("Errors fall as rows$^{-2}$ on Delaunay edges, whatever the points\n"
                   "dotted: 1 %; hollow: K too low; bars: 95 % over point sets; lost: a set diverged")
     return page
 
