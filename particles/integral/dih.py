@@ -141,7 +141,7 @@ def frictions(eta: np.ndarray, zeta: np.ndarray, d: int) -> tuple[np.ndarray, np
 
 
 def along(edges: Any, coefficients: Coefficients, a: Flow, b: Flow) -> EdgeFluxes:
-    """Fluxes from points a to b by friction and heat along edges, with k and apart    [Eq. 51]"""
+    """Fluxes from points a to b by friction [Eq. 51] and heat along edges, with k and apart."""
     d, (eta, zeta, kappa) = edges.apart.shape[1], coefficients
     B, A = frictions(eta, zeta, d)
     dv, e = b.v - a.v, edges.apart/np.sqrt((edges.apart**2).sum(axis=1))[:, None]

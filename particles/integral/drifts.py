@@ -51,7 +51,7 @@ class ConvectiveDrift(NamedTuple):
 
 
 class ConstantMassDrift(NamedTuple):
-    """Eq. 49: masses are constant, volumes follow the flow. bracket : `Crossed` or `Powers` [Eq. 50]."""
+    """Eq. 49 at constant masses; volumes follow the flow. bracket : `Crossed` or `Powers` [Eq. 50]."""
     bracket: Any = Crossed()
 
     def terms(self, eos: Any, transport: tuple) -> tuple:

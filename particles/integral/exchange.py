@@ -31,11 +31,11 @@ class Friction(NamedTuple):
 
 
 class Conduction(NamedTuple):
-    """Heat conduction along the edge, for a share of the conductivity    [Eq. 51]"""
+    """Heat conduction along the edge, for a share of the conductivity: ours, beside Eq. 51."""
     share: float = 1.0
 
 
-#: friction and heat of Eq. 51; heat first costs 15 % more with terms that divide, see `Listing`
+#: friction of Eq. 51 and heat; heat first costs 15 % more with terms that divide, see `Listing`
 PRINTED = (Friction(), Conduction())
 
 
