@@ -51,7 +51,6 @@ class Ingredients(NamedTuple):
 
 class DriftKickDrift:
     """Points move for half a step, exchange over fixed faces in three stages, move for the other half."""
-    evaluations = 3
 
     def __init__(self, shape: tuple[int, ...], threads: Threads):
         self.rates, self.first = np.zeros(shape), np.zeros(shape)

@@ -151,7 +151,6 @@ class StableStreaming(Stable, Streaming):
 
 class Positive:
     """Averaged Euler steps, in parts no longer than `sums.longest`; a part that fails is halved."""
-    evaluations = len(OLD)
 
     def __init__(self, shape: tuple[int, ...], threads: Threads):
         self._start, self._k = np.empty(shape), np.empty(shape)

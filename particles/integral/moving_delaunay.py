@@ -16,7 +16,7 @@ from particles.integral.bodies import Held
 from particles.integral.carried import EXCHANGED, ROWS, Bench, Crossing, Fluid, Point, hold, receive
 from particles.integral.exchange import Conduction, Friction, Listing
 from particles.integral.fixed import check_number
-from particles.integral.march import FULL, IMAGINARY, NEW, REAL, TURNED, march
+from particles.integral.march import FULL, IMAGINARY, REAL, TURNED, march
 from particles.integral.rings import Rings, geometry, in_order, remade, rows_of, table_of
 from particles.limits import limit_of
 from particles.lists import unphysical
@@ -41,7 +41,6 @@ AFAR, SOME = 32, 10_000
 
 class Carry(Leaps):
     """Integrator: places half a step later, triangulation and edges there, stages of exchange, new places."""
-    evaluations = len(NEW)
 
     def __init__(self, shape: tuple[int, ...], threads: Threads):
         super().__init__(shape, threads)

@@ -33,7 +33,6 @@ class ThreeStage:
 
     sums.kicks(y, beta, dt, out) writes the change by the noise W_A + beta W_B    [Delong et al. 2013]
     """
-    evaluations = 3
 
     def __init__(self, shape: tuple[int, ...], threads: Threads):
         self._start, self._k, self._kick = (np.empty(shape) for _ in range(3))

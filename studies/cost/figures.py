@@ -62,7 +62,7 @@ def work_precision(points: pd.DataFrame, needed: pd.DataFrame) -> Figure:
 
 def panel(axes: Axes, rows: pd.DataFrame, needed: pd.DataFrame, title: str) -> None:
     """Draw the panel of one scene and quantity."""
-    draw(axes, rows[rows.method.isin(best(rows, needed))], "cpu_s", "error")
+    draw(axes, rows[rows.method.isin(best(rows, needed))])
     for level in LEVELS:
         axes.axhline(level, color="grey", linewidth=0.6, linestyle=":")
     loglog(axes, title, "CPU seconds")
@@ -84,13 +84,13 @@ def foremost(marks: pd.DataFrame) -> str:
     return str(marks[first].idxmin())
 
 
-def draw(axes: Axes, rows: pd.DataFrame, x: str, y: str) -> None:
-    """Draw all methods, with error bars in both directions."""
-    rows = rows[rows[x] > 0]        # a short time may be lost in noise
+def draw(axes: Axes, rows: pd.DataFrame) -> None:
+    """Draw errors of all methods over seconds, with error bars in both directions."""
+    rows = rows[rows.cpu_s > 0]     # a short time may be lost in noise
     for name in present(rows):
         series = rows[rows.method == name].sort_values("resolution")
-        axes.errorbar(series[x], series[y], xerr=limited(series, x), yerr=limited(series, y), label=name,
-                      **style(name))
+        xerr, yerr = (limited(series, column) for column in ("cpu_s", "error"))
+        axes.errorbar(series.cpu_s, series.error, xerr=xerr, yerr=yerr, label=name, **style(name))
 
 
 def present(rows: pd.DataFrame) -> list[str]:

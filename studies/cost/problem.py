@@ -9,6 +9,7 @@ show that they are unstable. In chaotic flows errors at any two steps differ by 
 change may be as large as the error.
 """
 from collections.abc import Callable, Iterator, Mapping
+from functools import partial
 from math import ceil
 from time import process_time
 from typing import Any, NamedTuple
@@ -49,8 +50,8 @@ Judge = Callable[[Any], Result]
 class Problem(NamedTuple):
     """A method at the start of a flow.
 
-    points : number of particles, points or cells. limit : largest stable step. time : duration. held() : all
-    that is in memory during a run. known : uncertainty of the exact answer. chaotic : two steps give two
+    points : number of particles, points or cells. limit : largest stable step. time : duration. set_up() :
+    makes what a run needs, to be timed. known : uncertainty of the exact answer. chaotic : two steps give two
     flows, of which only the sizes of errors can be compared. firm : no step beyond the limit is stable.
     timed : `go` without records.
     """
@@ -60,7 +61,7 @@ class Problem(NamedTuple):
     time: float
     go: Go
     judge: Judge
-    held: Callable[[], tuple]
+    set_up: Callable[[], Any]
     known: float = 0.0
     chaotic: bool = False
     firm: bool = False
@@ -103,25 +104,22 @@ class Problem(NamedTuple):
 
 
 def of_method(method: Any, start: np.ndarray, time: float, judge: Judge, **more: Any) -> Problem:
-    """Problem of such a method. In memory are the state, the sums with their lists, the integrator's data."""
+    """Problem of such a method. It is set up by making the sums, their lists and the integrator."""
     def go(state: np.ndarray, dt: float, steps: int) -> np.ndarray:
         return run(Unguarded(method), state, Plan(dt=dt, steps=steps, every=steps)).by_id()
 
-    def held() -> tuple:
+    def set_up() -> None:
         threads, n = Threads(1), start.shape[1]
-        sums, now = method.start(n, threads), Run(state=start.copy(), ids=np.arange(n))
-        sums.try_out(now)
-        integrator = getattr(method, "integrator", RK4)
-        return now.state, sums, integrator(start.shape, threads)
-    return Problem(start.shape[1], start, limit_of(method, start), time, go, judge, held, **more)
+        method.start(n, threads).try_out(Run(state=start.copy(), ids=np.arange(n)))
+        getattr(method, "integrator", RK4)(start.shape, threads)
+    return Problem(start.shape[1], start, limit_of(method, start), time, go, judge, set_up, **more)
 
 
 def of_grid(ready: Any, time: float, judge: Judge, **more: Any) -> Problem:
     """Problem of the compressible grid, which has its own time loop and cells of unit spacing."""
-    method, march = ready.method, ready.method.march(ready.start)
+    method, start = ready.method, ready.start
     cells = round(method.scene.L*method.scene.width)
-    return Problem(cells, ready.start, ready.limit, time, method.go, judge,
-                   lambda: (march.S, march.scratch), **more)
+    return Problem(cells, start, ready.limit, time, method.go, judge, partial(method.march, start), **more)
 
 
 def relative(V: np.ndarray, difference: np.ndarray, scale: np.ndarray) -> np.ndarray:

@@ -7,10 +7,11 @@ import numpy as np
 
 from particles.run import Divergence
 from studies.cost.problem import Problem, Result, Rung, best, climb, rms
-from studies.cost.seconds import SHORT, of_calls, per_step
+from studies.cost.seconds import SHORT, per_step
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.stats import Measured, with_errors
 from studies.kit.table import Row
+from studies.kit.timing import of_calls
 
 TRIES = 1.4         # factor in the seconds of a case: the trials of longer steps
 LONGER = 10         # times longer are runs that time particles: lists have to be made in them
@@ -30,9 +31,9 @@ class Race(Case, same="scene method resolution seed"):
     variant: Any
     make: Callable[[Any, Any, int, int], Any]
     price: float
-    first: float = 0.9
+    first: float
     resolution: int
-    seed: int = 1
+    seed: int
     short: float = SHORT
     alone: ClassVar[bool] = True
 
@@ -79,7 +80,7 @@ class Race(Case, same="scene method resolution seed"):
         """The row of the table `runs`."""
         steps, dt = problem.steps(fraction), problem.dt(fraction)
         seconds = self.a_step(problem, dt, result.state)*steps
-        set_up = of_calls(lambda: self.made().held())
+        set_up = of_calls(lambda: self.made().set_up())
         return {**self.columns, "points": problem.points, "of_limit": fraction, "dt": dt, "steps": steps,
                 **with_errors(run_s=seconds, setup_s=set_up)}
 

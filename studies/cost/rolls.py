@@ -104,12 +104,9 @@ class HeatedLayer(NamedTuple):
         """Judge of all quantities; see(state) gives the fields at the end. factor : of smoothing on K."""
         def judge(done: Followed) -> Result:
             at = see(done.state)
-            return self.result(done, at._replace(x=at.x/scene.L), factor)
+            others = compared(at._replace(x=at.x/scene.L), self.answer.fields)
+            return self.of_energy(done, factor, others)
         return judge
-
-    def result(self, done: Followed, at: Fields, factor: float) -> Result:
-        """Errors of a run, from its K and its fields at the end, with places in heights."""
-        return self.of_energy(done, factor, compared(at, self.answer.fields))
 
     def of_energy(self, done: Followed, factor: float = 1.0, others: Mapping[str, Any] = NONE) -> Result:
         """Errors of K and K(t), along with those of other quantities."""

@@ -1,5 +1,5 @@
 """Seconds of a step: how they are measured; how seconds grow with the number of points."""
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 from pathlib import Path
@@ -14,7 +14,7 @@ from particles.run import Plan, run
 from studies.kit.case import Case, Report
 from studies.kit.stats import Measured, with_errors
 from studies.kit.table import Row
-from studies.kit.timing import REPEATS, SPREAD_TO_ERR
+from studies.kit.timing import REPEATS, median, took
 
 Clock = Callable[[], float]
 SHORT = 0.01        # least CPU seconds of the steps of the shorter of two runs
@@ -27,25 +27,6 @@ TURNS, A_TURN = 12, 2                   # turns of one and two threads; laps in 
 
 
 # --- how they are measured ----------------------------------------------------------------------------------
-
-
-def median(seconds: Sequence[float] | np.ndarray) -> Measured:
-    """Median of repeats, with its error from their quartiles and number."""
-    low, middle, high = np.percentile(seconds, [25, 50, 75])
-    to_err = SPREAD_TO_ERR*np.sqrt(REPEATS/len(seconds))
-    return Measured(float(middle), float(to_err*(high - low)/2))
-
-
-def took(f: Callable[[], Any], clock: Clock = process_time) -> float:
-    """Seconds of a call."""
-    began = clock()
-    f()
-    return clock() - began
-
-
-def of_calls(f: Callable[[], Any]) -> Measured:
-    """Median seconds of a call that was made before, so that all is compiled."""
-    return median([took(f) for _ in range(REPEATS)])
 
 
 def per_step(advance: Callable[[int], Any], short: float = SHORT, clock: Clock = process_time) -> Measured:
@@ -128,12 +109,13 @@ class StepTime(Case, table="growth", same="method"):
         flock = Flock.of(self.variant, self.rows)
         count = WORK/(WARM*flock.start.shape[1])
         laps = flock.laps(int(np.clip(count, *LAPS)), process_time)
-        yield row(flock, median(laps), 1, "cpu")
+        yield row(flock, median(laps), "cpu")
 
 
-def row(flock: Flock, seconds: Measured, threads: int, clock: str) -> Row:
+def row(flock: Flock, seconds: Measured, clock: str) -> Row:
     """A row of the table `growth`."""
-    return {"points": flock.start.shape[1], "threads": threads, "clock": clock, **with_errors(step_s=seconds)}
+    return {"points": flock.start.shape[1], "threads": flock.threads, "clock": clock,
+            **with_errors(step_s=seconds)}
 
 
 class TwoThreads(StepTime, table="growth"):
@@ -154,8 +136,8 @@ class TwoThreads(StepTime, table="growth"):
                 alone.extend(first)
                 together.extend(second)
             report(turn/self.turns)
-        yield row(one, median(alone), 1, "wall")
-        yield row(two, median(together), 2, "wall")
+        yield row(one, median(alone), "wall")
+        yield row(two, median(together), "wall")
 
 
 def resident(variant: Any, rows: int) -> Row:

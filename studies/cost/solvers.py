@@ -1,5 +1,4 @@
 """Contestants that are solved in one call: the spectral gas, and py-pde in the vortex and in convection."""
-from dataclasses import dataclass
 from functools import cache, partial
 from pathlib import Path
 from typing import Any
@@ -21,9 +20,10 @@ from studies.cost.contestants import KNOWN, decay
 from studies.cost.problem import Residuals, Result, relative, rms
 from studies.cost.race import Race
 from studies.cost.rolls import END, OFTEN, Followed, HeatedLayer, unit
-from studies.cost.seconds import Laps, of_calls
+from studies.cost.seconds import Laps
 from studies.kit.case import Outcome, Report
 from studies.kit.stats import Measured, with_errors
+from studies.kit.timing import of_calls
 
 SAMPLES = 5         # of the seconds of py-pde in the vortex, one for each equal part of a run
 
@@ -53,7 +53,6 @@ def apart(state: SpectralState, exact: SpectralState) -> Residuals:
     return {"K": np.array([state.K/exact.K - 1]), "velocity": velocity}
 
 
-@dataclass(frozen=True, kw_only=True)
 class SpectralRace(Race):
     """The spectral gas to its steady state, without steps in time. resolution : functions along an axis."""
 
@@ -150,7 +149,6 @@ def by_pypde(flow: Any, method: None, size: int, seed: int) -> Slow | Rolling:
     return Rolling(flow, size) if isinstance(flow, HeatedLayer) else Slow(flow.scene(size), size)
 
 
-@dataclass(frozen=True, kw_only=True)
 class SolverRace(Race):
     """One call of py-pde, whose gas `make` gives.
 

@@ -2,8 +2,9 @@
 
     one("nonlinear", "ratio", field="rho", k=1e-3)                  with ratio_err, where the table has it
     largest("printed", "abs(ratio/predicted - 1)", d=2)             over all rows where d is 2
-    last("sampled", "ratio*exact", by="exact", err="ratio_err*exact", field="w")
-    power("steps", "error", "dt", "0.09 < dt < 0.41", fluid="gas")  d ln(error)/d ln(dt)
+    last("needed", "cpu_s", by="level", err="high - cpu_s", method="grid")
+    power("steps", "error", "dt", "0.09 < dt < 0.41", fluid="moving")
+                                                                    d ln(error)/d ln(dt)
     one("means", "ke", resolution=50)/one("means", "ke", resolution=inf)
 
 Rows are chosen by the values of columns (a tuple lists several) and by a condition. Formulas and conditions
@@ -165,7 +166,9 @@ def power(x: Array, y: Array, err: Array) -> Measured:
 
 def largest_of(*values: Value) -> Value:
     """The largest of several, with the largest error among them."""
-    return one_of(top, values)
+    asks = tuple(chosen for value in values for chosen in value.asks)
+    return Value(lambda tables: picked(top, [value(tables) for value in values]),
+                 f"largest of {'; '.join(map(str, values))}", asks)
 
 
 def largest_per(columns: str | Sequence[str], value: Value) -> Value:
@@ -193,13 +196,6 @@ def bench(asked: Value) -> Value:
         path = RESULTS/"bench"/f"{name}.csv"
         return asked(Tables({name: read(path)}) if path.exists() else Tables())
     return Value(answer, str(asked))
-
-
-def one_of(pick: Pick, values: Sequence[Value]) -> Value:
-    """The answer to one of several questions."""
-    asks = tuple(chosen for value in values for chosen in value.asks)
-    return Value(lambda tables: picked(pick, [value(tables) for value in values]),
-                 f"{pick.__name__} of {'; '.join(map(str, values))}", asks)
 
 
 def one_per(pick: Pick, columns: str | Sequence[str], value: Value) -> Value:

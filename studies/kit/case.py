@@ -3,7 +3,6 @@ import dataclasses
 import json
 import sys
 from collections.abc import Callable, Iterable, Iterator
-from enum import Enum
 from functools import cached_property
 from pathlib import Path
 from typing import Any, ClassVar, dataclass_transform
@@ -28,7 +27,7 @@ class Outcome:
 class Case:
     """Base of all cases; a subclass is a frozen keyword-only dataclass whose fields are the parameters.
 
-    Fields may be numbers, strings, tuples, dicts, enums, NamedTuples, dataclasses, and functions or classes
+    Fields may be numbers, strings, tuples, dicts, NamedTuples, dataclasses, and functions or classes
     of a module. The result must depend only on the fields and the code.
     """
 
@@ -114,8 +113,6 @@ def parameters(value: Any) -> Any:
     if value is None or isinstance(value, bool | int | float | str):
         return value
     kind = {"": type(value).__qualname__}
-    if isinstance(value, Enum):
-        return {**kind, "name": value.name}
     fields = fields_of(value)
     if fields is not None:
         return kind | {str(name): parameters(item) for name, item in fields.items()}
@@ -125,7 +122,7 @@ def parameters(value: Any) -> Any:
         module = {} if is_ours(value.__module__) else {"module": value.__module__}     # the key has our code
         return {"": value.__qualname__} | module
     raise TypeError(f"a case cannot hold {value!r}: use numbers, texts, tuples, NamedTuples, dataclasses, "
-                    "enums, or functions and classes of a module")
+                    "or functions and classes of a module")
 
 
 def key_of(case: Case, code: Code) -> str:

@@ -224,7 +224,7 @@ def row(claim: Claim, tables: Noting, study: str) -> Row:
             "evidence": "; ".join(filter(None, files))}
 
 
-def judged(claim: Claim, tables: Tables, study: str = "") -> Row:
+def judged(claim: Claim, tables: Tables, study: str) -> Row:
     """Measured value, error, verdict and reason of one claim.
 
     Raises WrongQuestion: a column or a table that the claim asks for does not exist.

@@ -1,11 +1,12 @@
 """Measurement of run times: CPU seconds, with compile time apart."""
-import statistics
 import time
-from collections.abc import Callable
-from typing import Any, NamedTuple, TypeVar
+from collections.abc import Callable, Sequence
+from typing import Any, TypeVar
 
 import numpy as np
 from scipy.special import stdtrit
+
+from studies.kit.stats import Measured
 
 from numba.core import event  # isort: skip
 
@@ -14,13 +15,6 @@ REPEATS = 7
 #: t sqrt(pi/(2n)) for normal scatter, whose quartiles are midway between 0.757 and 0.353 sigma on average
 SPREAD_TO_ERR = float(stdtrit(REPEATS - 1, 0.975)*np.sqrt(np.pi/(2*REPEATS))/((0.757 + 0.353)/2))
 T = TypeVar("T")
-
-
-class Seconds(NamedTuple):
-    """Median of repeats and half of their interquartile range."""
-
-    median: float
-    spread: float
 
 
 class _Compiling(event.Listener):
@@ -48,21 +42,20 @@ def compile_and_run_seconds(f: Callable[[], T]) -> tuple[T, float, float]:
     return result, compiling.seconds, time.process_time() - begin - compiling.seconds
 
 
-def median_seconds(f: Callable[[], Any], repeats: int = 7,
-                   clock: Callable[[], float] = time.perf_counter) -> Seconds:
-    """Seconds that ``f()`` takes, after one call that does not count (it may compile).
-
-    ``clock=time.process_time`` counts the CPU time of all threads instead of the time that passes.
-
-    Raises ValueError: Fewer than 3 repeats.
-    """
-    if repeats < 3:
-        raise ValueError(f"repeats must be at least 3, got {repeats}: a median of fewer is no median")
+def took(f: Callable[[], Any], clock: Callable[[], float] = time.process_time) -> float:
+    """Seconds of a call."""
+    began = clock()
     f()
-    times = []
-    for _ in range(repeats):
-        begin = clock()
-        f()
-        times.append(clock() - begin)
-    low, median, high = statistics.quantiles(times, n=4, method="inclusive")
-    return Seconds(median, (high - low)/2)
+    return clock() - began
+
+
+def median(seconds: Sequence[float] | np.ndarray) -> Measured:
+    """Median of repeats, with its error from their quartiles and number."""
+    low, middle, high = np.percentile(seconds, [25, 50, 75])
+    to_err = SPREAD_TO_ERR*np.sqrt(REPEATS/len(seconds))
+    return Measured(float(middle), float(to_err*(high - low)/2))
+
+
+def of_calls(f: Callable[[], Any]) -> Measured:
+    """Median CPU seconds of a call that was made before, so that all is compiled."""
+    return median([took(f) for _ in range(REPEATS)])

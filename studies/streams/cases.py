@@ -5,10 +5,9 @@ to itself. The paper size takes an hour of CPU, twenty minutes of it alone on th
 """
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import partial
 from itertools import product
 from math import ceil
-from pathlib import Path
-from time import process_time
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
@@ -20,8 +19,10 @@ from studies.build.grid import Gridded
 from studies.build.setting import Ready
 from studies.build.spam import Variant
 from studies.front.observed import seen
-from studies.kit.case import Case, Outcome, Report
-from studies.kit.timing import SPREAD_TO_ERR, median_seconds
+from studies.kit.case import Case, Report
+from studies.kit.stats import with_errors
+from studies.kit.table import Row
+from studies.kit.timing import of_calls
 from studies.streams import scenes
 from studies.streams.scenes import Carried
 
@@ -65,12 +66,11 @@ LAYER_RIDERS["spam-less-static-50"] = LAYER_RIDERS["spam"]
 
 @dataclass(frozen=True, kw_only=True)
 class Ride(Case):
-    """A method in a scene. one_mass : particles have one mass, and are placed by the scene's density."""
+    """A method in a scene."""
     name: str
     scene: Any
     method: str
     variant: Any
-    one_mass: bool
     seed: int = 1
     price: float
 
@@ -87,12 +87,13 @@ class Ride(Case):
                 f"{self.scene.stream:g}, seed {self.seed}")
 
     @property
-    def key_columns(self) -> dict[str, Any]:
-        """Columns that every row has."""
+    def columns(self) -> Row:
         return {"scene": self.name, "method": self.method, "rows": self.scene.L, "stream": self.scene.stream}
 
     def ready(self) -> Ready:
-        begun = dict(zip(("x", "fields"), of_one_mass(self.scene, self.seed))) if self.one_mass else {}
+        """Smooth particles have one mass, and are placed by the scene's density."""
+        alike = isinstance(self.variant, Variant)
+        begun = dict(zip(("x", "fields"), of_one_mass(self.scene, self.seed))) if alike else {}
         made = self.variant.ready(self.scene, self.seed, **begun)
         return made._replace(start=made.start.reshape(len(made.start), -1))
 
@@ -101,10 +102,10 @@ class Ride(Case):
         return ceil(self.scene.time/ready.dt)
 
 
-class Error(Ride):
+class Error(Ride, table="runs"):
     """Errors at the end against the exact answer; nan where the run diverges."""
 
-    def run(self, report: Report, folder: Path) -> Outcome:
+    def measure(self, report: Report) -> list[Row]:
         ready = self.ready()
         steps, begun = self.steps(ready), ready.method.fields(ready.start)
         try:
@@ -112,13 +113,11 @@ class Error(Ride):
             errors = self.scene.errors(begun, ended)
         except (Divergence, ArithmeticError):
             errors = dict.fromkeys(self.scene.errors(begun, begun), np.nan)
-        common = self.key_columns | {"seed": self.seed, "steps": steps}
-        rows = [common | {"quantity": name, "error": error} for name, error in errors.items()]
-        return Outcome({"runs": rows})
+        common = {"seed": self.seed, "steps": steps}
+        return [common | {"quantity": name, "error": error} for name, error in errors.items()]
 
 
-@dataclass(frozen=True, kw_only=True)
-class Seconds(Ride):
+class Seconds(Ride, table="seconds"):
     """CPU seconds of setting up and of a step. brief : seconds of all steps timed together, about."""
     alone: ClassVar[bool] = True
     brief: float
@@ -127,17 +126,16 @@ class Seconds(Ride):
     def cost(self) -> float:
         return 0.1 + 10*self.brief
 
-    def run(self, report: Report, folder: Path) -> Outcome:
+    def measure(self, report: Report) -> list[Row]:
         ready = self.ready()
         steps = min(self.steps(ready), max(8, int(self.brief/self.price/ready.start.shape[1])))
+        run_some = partial(advanced, ready, ready.dt, steps)
         try:
-            setup, some = (median_seconds(f, clock=process_time)
-                           for f in (self.ready, lambda: advanced(ready, ready.dt, steps)))
+            run_some()      # it may compile
+            setup, some = of_calls(self.ready), of_calls(run_some)
         except (Divergence, ArithmeticError):
-            return Outcome({"seconds": []})
-        return Outcome({"seconds": [self.key_columns | {
-            "step_s": some.median/steps, "step_s_err": SPREAD_TO_ERR*some.spread/steps,
-            "setup_s": setup.median, "setup_s_err": SPREAD_TO_ERR*setup.spread}]})
+            return []
+        return [with_errors(step_s=some*(1/steps), setup_s=setup)]
 
 
 def advanced(ready: Ready, dt: float, steps: int, report: Report | None = None) -> Fields:
@@ -157,11 +155,10 @@ def of_scene(size: str, name: str) -> Iterator[Ride]:
     """Runs of all methods, streams and rows in a scene."""
     riders, quick = LAYER_RIDERS if name == "convection" else RIDERS, size == "quick"
     for (method, rider), stream in product(riders.items(), QUICK if quick else STREAMS):
-        chosen = variant(method)
         rows = (rider.fast if stream >= 1 else rider.rows)[:rider.quick if quick else None]
         for L in rows if stream in rider.streams else ():
             common = {"name": name, "scene": SCENES[name](L=L, stream=stream), "method": method,
-                      "variant": chosen, "one_mass": isinstance(chosen, Variant), "price": rider.price}
+                      "variant": variant(method), "price": rider.price}
             for seed in range(1, 2 if quick else 1 + rider.seeds):
                 yield Error(**common, seed=seed)
             yield Seconds(**common, brief=BRIEF[size])

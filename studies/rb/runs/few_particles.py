@@ -13,11 +13,10 @@ import numpy as np
 from numpy.polynomial import Polynomial
 
 from continuum.fluid import ConstEta, VanDerWaals
-from particles.integrators import RK4
+from particles.integrators import RK4, Euler
 from particles.plan import Plan
 from particles.run import run
 from particles.smooth.spam import Spam
-from particles.threads import Threads
 from particles.weights import Lucy
 from studies.build.spam import fluid
 from studies.kit import fits, stats
@@ -113,15 +112,10 @@ TURN = np.array([1, 1, -1, -1, 1])[:, None]     # of velocities
 Errors = Callable[[Spam, int, Sequence[int]], list[float]]
 
 
-class Midpoint:
+class Midpoint(Euler):
     """Runge-Kutta of second order: two evaluations a step."""
-    evaluations = 2
-
-    def __init__(self, shape: tuple[int, ...], threads: Threads):
-        self._k = np.empty(shape)
 
     def step(self, sums: Any, y: np.ndarray, dt: float) -> None:
-        """Advance y in place by dt."""
         sums.rates(y, self._k)
         sums.rates(y + dt/2*self._k, self._k)
         y += dt*self._k
@@ -136,7 +130,7 @@ def whole(q: np.ndarray) -> np.ndarray:
     return np.rint(q/GRID)*GRID
 
 
-class WholeLeapfrog(Midpoint):
+class WholeLeapfrog(Euler):
     """Half a kick, a drift, half a kick in whole numbers: reversible bit by bit [Levesque & Verlet 1993].
 
     Energies stay, as nothing depends on them.

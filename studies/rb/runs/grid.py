@@ -64,7 +64,6 @@ class CompressibleSteady(Case, table="kinetic_energy"):
     """
     sizes: tuple[int, ...]
     scene: RayleighBenard
-    rtol: float = 1e-5
     keep: str = ""
     smooth: tuple[Smoothing, ...] = ()
     form: GridForm = FORMS["flux-form"]
@@ -82,9 +81,8 @@ class CompressibleSteady(Case, table="kinetic_energy"):
 
     def run(self, report: Report, folder: Path) -> Outcome:
         first = beginning(self.scene, self.sizes[0], self.form)
-        until = Steady(rtol=self.rtol, longest=self.longest)
-        solutions = steady_on(self.scene, self.sizes, start=first, until=until, progress=report,
-                              continuity=self.form.continuity)
+        solutions = steady_on(self.scene, self.sizes, start=first, until=Steady(longest=self.longest),
+                              progress=report, continuity=self.form.continuity)
         finest = solutions[-1].fields
         point = compressible(self.scene, self.sizes[-1], self.form.name)
         rows = {"kinetic_energy": [self._row(one) for one in solutions],
