@@ -113,7 +113,8 @@ def test_densities_that_alternate_are_what_is_asked(method, expected, within):
 def test_rolls_of_a_flow_that_has_stopped_are_not_counted(flow, rolls, verdict):
     squares = pd.DataFrame([{"eos": "IdealGas", "weight": "Monaghan", "ra": 1e4, "begun": 0.03, "flow": flow,
                              "rolls": rolls, "shared": 0.92}])
-    row = judged({claim.id: claim for claim in SQUARES}["khp95-hard-fig10-one-roll"], Tables(squares=squares))
+    claim = {claim.id: claim for claim in SQUARES}["khp95-hard-fig10-one-roll"]
+    row = judged(claim, Tables(squares=squares), "hardcases")
     assert row["verdict"] == verdict and ("stopped" in row["reason"]) == (verdict == "undecidable")
 
 

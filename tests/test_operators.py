@@ -12,7 +12,7 @@ from particles.integral.edge_makers import MAKERS, delaunay, plain, printed, ren
 from particles.integral.edges import Edges
 from particles.integral.interpolants import Exponential, Gaussian, W
 from particles.integral.points import jittered, lattice, pairs
-from particles.limits import jacobian, limit_of
+from particles.limits import jacobian, limit_of, rates_of
 from particles.run import Plan, run
 from particles.smooth.corrected import Symmetrised
 from particles.threads import Threads
@@ -27,7 +27,6 @@ from studies.operators.equations import (
     inner,
     kernel,
     mass_rate,
-    rates,
     transported,
 )
 from studies.operators.makers import (
@@ -98,10 +97,10 @@ def test_literal_sums_are_those_of_the_code():
     rho, v, T = rng.uniform(0.9, 1.1, n), rng.normal(size=(n, 2)), rng.uniform(0.9, 1.1, n)
     dih, w = gas(edges, zeta=0.1), brackets(edges)
     state, still = dih.state(rho, v, T), dih.state(rho, 0*v, T)
-    np.testing.assert_allclose(mass_rate(w, rho, v), rates(dih, state)[0], rtol=0, atol=1e-12)
+    np.testing.assert_allclose(mass_rate(w, rho, v), rates_of(dih, state)[0], rtol=0, atol=1e-12)
     friction = transported(dih, dih.flow(state))[1:-1].T
     np.testing.assert_allclose(-gathered(w, kernel(inner(w, v), 0.3, 0.1, 1.0)), friction, rtol=0, atol=1e-12)
-    conduction = rates(dih, still)[-1]
+    conduction = rates_of(dih, still)[-1]
     np.testing.assert_allclose(gathered(w, 0.4*inner(w, T)), conduction, rtol=0, atol=1e-12)
 
 

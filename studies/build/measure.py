@@ -4,7 +4,7 @@ Separates the symmetric part of a flow from noise, and smooths the grid's field 
 """
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from math import sqrt
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -18,11 +18,23 @@ from continuum.scene import Periodic
 from particles.run import Divergence, Plan, Run, run
 from particles.weights import value_and_slope
 from studies.build.setting import Ready
+from studies.kit.csvfile import read
 from studies.kit.stats import Measured
+from studies.kit.store import RESULTS
 
 FINE = 240     # places over the height where fields are smoothed: a range at 100 rows covers 7
 RANGE = 3.0     # range of the printed weights, in spacings
+RA = 1e4        # of `limit`
 Fields = dict[str, np.ndarray]
+
+
+@cache
+def limit(column: str) -> float:
+    """A column of the grid of the study rb at Ra 10 000, Pr 1, extrapolated."""
+    rows = read(RESULTS/"rb"/"means.csv").query(
+        "method == 'compressible' and variant == 'flux-form' and eos == 'ideal' and transport == 'const-eta' "
+        "and sides == 'periodic' and ra == @RA and pr == 1 and resolution == inf")
+    return float(rows[column].iloc[0])
 
 
 class Ended(NamedTuple):

@@ -14,7 +14,7 @@ from particles.integrators import RK4
 from particles.limits import limit_of
 from particles.run import Divergence, Plan, run
 from particles.weights import Lucy
-from studies.build.setting import DISORDERS, Disorder
+from studies.build.setting import DISORDERS, Disorder, inside
 from studies.conservation.motions import moving
 from studies.conservation.sums import (
     EVERYTHING,
@@ -31,7 +31,6 @@ from studies.kit.table import Row
 
 SIDE = 8                # of the box, in spacings
 H = 3.0                 # range of the weights, in spacings
-FROM_PLATE = 0.25       # least distance of irregular points from a plate, in spacings
 FEW, NARROW = 6, 2.7    # side of the box and range of the weights for RR98's moving points
 
 
@@ -66,14 +65,9 @@ UNDER_GRAVITY = Wall("plates, gravity", plates=True, g=0.01)
 
 
 def around(disorder: Disorder, seed: int, plates: bool) -> Points:
-    """SIDE^2 points in the box, FROM_PLATE or more away from plates."""
+    """SIDE^2 points in the box, none too near to a plate."""
     points = disorder.make((SIDE, SIDE), disorder.size, seed)
-    if not plates:
-        return points
-    x, y = points.x.T
-    edge = SIDE/2 - FROM_PLATE
-    inside = np.clip(y, -edge, edge)
-    return of_positions(np.stack([x, inside], axis=1), points.box)
+    return of_positions(inside(SIDE, points.x), points.box) if plates else points
 
 
 class LayerDrift(WatchedRun, table="drift"):

@@ -16,6 +16,7 @@ from particles.integral.dih import Dih, NestedFluxes, carried, densities, take
 from particles.integral.edges import Edges
 from particles.integral.points import Points, jittered
 from particles.integral.rr98_moving_plain import MOTIONS, ConstantMass, Powers
+from particles.limits import rates_of
 from particles.run import Plan, run
 from particles.smooth.spam import Spam
 from particles.weights import Lucy
@@ -78,7 +79,7 @@ class MotionTorque(Case, table="motion_torques", same="motion"):
         x = points.x[np.hypot(*points.x.T) < RADIUS]
         points = Points(x=x, box=points.box, V=np.ones(len(x)))
         particles = self.motion == "spam"
-        force = rates_of(*smooth(points, self.law))[2:4].T if particles else self.pushed(points)
+        force = rates_by_id(*smooth(points, self.law))[2:4].T if particles else self.pushed(points)
         yield {"viscosity": self.law.eta, "torque": relative(x, force)}
 
     def pushed(self, points: Points) -> np.ndarray:
@@ -86,8 +87,7 @@ class MotionTorque(Case, table="motion_torques", same="motion"):
         method = moving(MOTIONS[self.motion], points, LUCY, self.law, transport=NestedFluxes())
         fields = densities(method.eos, *random_fields(points, SIZE, 1))
         state = np.concatenate([points.x.T, method.owned(points.V)*fields, points.V[None]])
-        rates = np.empty_like(state)
-        method.rates(state, rates)
+        rates = rates_of(method, state)
         up, down = (q[3:5]*q[-1]/method.owned(q[-1]) for q in (state + rates, state - rates))
         return (up - down).T/2              # exact: momentum is a product of two rows
 
@@ -98,12 +98,10 @@ def smooth(points: Points, law: Any = STILL) -> tuple[Spam, np.ndarray]:
     return method, method.state(points.x, 1.0, v, T)
 
 
-def rates_of(method: Spam, state: np.ndarray) -> np.ndarray:
+def rates_by_id(method: Spam, state: np.ndarray) -> np.ndarray:
     """d(state)/dt of smooth particles, in the order of the state."""
     sums, ordered, ids = method.look(state)
-    rates = np.empty_like(state)
-    sums.rates(ordered, rates)
-    return rates[:, np.argsort(ids)]
+    return rates_of(sums, ordered)[:, np.argsort(ids)]
 
 
 class BesideSpam(Case, table="beside", same="a b"):
@@ -122,7 +120,7 @@ class BesideSpam(Case, table="beside", same="a b"):
         V = spam.fields(start).V
         method = moving(ConstantMass, points, LUCY, scale=1.0, bracket=Powers(self.a, self.b))
         first = np.concatenate([points.x.T, V*densities(method.eos, 1/V, start[2:4].T, start[4]), V[None]])
-        pushed, push = acceleration(method, first), rates_of(spam, start)[2:4]
+        pushed, push = acceleration(method, first), rates_by_id(spam, start)[2:4]
         last, ended = march(method, first, DT, steps, np.copy)[-1], run(spam, start, Plan(dt=DT, steps=steps))
         other = ended.by_id()
         yield {"start": apart(pushed, push), "end": apart(method.velocity(last), other[2:4]),

@@ -17,6 +17,7 @@ from particles.integral.rr98_moving_plain import (
     scale_of,
 )
 from particles.integrators import RK4, Euler, TwoStep
+from particles.limits import rates_of
 from particles.threads import Threads
 from particles.weights import Lucy
 from studies.kit.case import Case, Report
@@ -49,8 +50,7 @@ def moving(kind: Any, points: Points, weight: Any, law: Any = STILL, **more: Any
 
 def acceleration(method: Any, state: np.ndarray) -> np.ndarray:
     """dv/dt = (dp/dt - v dm/dt)/m, (d, n)."""
-    d, rates = method.places, np.empty_like(state)
-    method.rates(state, rates)
+    d, rates = method.places, rates_of(method, state)
     m, dm, dp = state[d], rates[d], rates[d + 1:2*d + 1]
     return (dp - method.velocity(state)*dm)/m
 

@@ -4,13 +4,12 @@ Lengths in spacings a, gas at rho = T = 1, gamma = 2, so that c^2 = 2; `_err` ar
 """
 from collections.abc import Iterator
 from math import hypot
-from typing import Any
 
 import pandas as pd
 
 from studies.kit import fits
 from studies.kit.stats import Measured, with_errors
-from studies.kit.table import Rows, Table, Tables
+from studies.kit.table import Row, Rows, Table, Tables
 
 SOUND = {"speed": ("speed of sound over c", "")}
 SIZE = {"rows": ("points along the side of the cell", ""), "variant": ("how the body is made", ""),
@@ -71,7 +70,6 @@ ALL = (
 LONG = (16, 24, 32)     # wavelengths from which sound is extrapolated
 LEAST = 3               # least number of sizes for an extrapolation
 WIDE = 4.0              # spacings: the polygon of a smaller circle is too coarse
-DERIVED = Iterator[dict[str, Any]]
 
 
 def derive(tables: Tables) -> Rows:
@@ -84,7 +82,7 @@ def derive(tables: Tables) -> Rows:
     return {name: some for name, some in rows.items() if some}
 
 
-def long_sound(sound: pd.DataFrame) -> DERIVED:
+def long_sound(sound: pd.DataFrame) -> Iterator[Row]:
     """Speeds of infinitely long waves, extrapolated: the error of the weight goes as wavelength^-2.
 
     The error of the limit is the difference of two extrapolations.
@@ -105,7 +103,7 @@ def extrapolated(speeds: pd.Series, a: int, b: int) -> float:
     return float((b*b*speeds[b] - a*a*speeds[a])/(b*b - a*a))
 
 
-def drag_limits(drags: pd.DataFrame) -> DERIVED:
+def drag_limits(drags: pd.DataFrame) -> Iterator[Row]:
     """Drags of points on the surface extrapolated to infinitely fine ones; their errors have second order."""
     known = drags[(drags["variant"] == "surface") & (drags["radius"] > WIDE)]
     for (variant, fraction), group in known.groupby(["variant", "fraction"]):

@@ -127,7 +127,7 @@ def as_vtu(solution: Solution, path: Path) -> None:
 class Comparison:
     """Solutions of several methods. diverged : messages of runs without solution, by method and rows."""
     solutions: list[Solution]
-    diverged: dict[str, str] = field(default_factory=dict)
+    diverged: dict[str, str]
 
     @property
     def table(self) -> pd.DataFrame:

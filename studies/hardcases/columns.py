@@ -201,7 +201,7 @@ COLUMNS = {name: Column(Strip(problem=problem, cells=50), (50, 100), *WAVES)
 def measured(scene: Any, course: Course) -> Row:
     """Numbers that a scene measures of a run, if it reached its end."""
     numbers = scene.seen(course.seen[0], course.seen[-1]) if course.reached == 1 else {}
-    return fate(course) | numbers
+    return fate(course.reached) | numbers
 
 
 def halved(sums: Any, state: np.ndarray) -> int:

@@ -23,7 +23,7 @@ from particles.fields import kinetic_energy
 from studies.build.fixed import OF_LIMIT, Scheme
 from studies.build.names import START_ENERGY
 from studies.build.setting import Ready, bisected, stepped
-from studies.hardcases.extremes import ROWS, falls, layer
+from studies.hardcases.extremes import ROWS, falls, late, layer
 from studies.hardcases.runs import SAMPLES, between_plates, followed
 from studies.kit.case import Case, Outcome, Report
 
@@ -33,7 +33,6 @@ FINE = 48               # rows of the reference grid
 RUNGS = tuple(float(f"{10.0**(n/2):.9g}") for n in range(8, 17))        # 1e4 .. 1e8
 KNOWN = 1e6             # Ra up to which K is compared with the fine grid
 TIME = 50.0             # free-fall times, as in the map
-LATE = slice(41, None)  # samples over which K is averaged, the start being the first one
 NOISE = 1e-6            # relative noise of the start, by which seeds differ where points do not
 
 
@@ -59,7 +58,7 @@ def on_points(variant: Any, ra: float, seed: int, step: float) -> Attempt:
     scene = layer(ra)
     ready = variant.ready(scene, seed)
     seen, reached, _ = followed(ready._replace(dt=step*ready.dt), falls(scene, TIME), SAMPLES, kinetic)
-    return Attempt(np.mean(seen[LATE]) if reached == 1 else np.nan, reached)
+    return Attempt(np.mean(seen[late(seen)]) if reached == 1 else np.nan, reached)
 
 
 def kinetic(method: Any, state: np.ndarray) -> float:
@@ -74,7 +73,7 @@ def on_grid(rows: int, ra: float, seed: int, step: float) -> Attempt:
     dt = step*SAFETY*limits(scene, block(start)).both
     start = replace(start, cells=start.cells*ripple(seed, *start.cells.shape))
     done, reached = between_plates(start, falls(scene, TIME), no_report, dt)
-    return Attempt(done.series.ke[LATE].mean() if done else np.nan, reached)
+    return Attempt(done.series.ke[late(done.series.ke)].mean() if done else np.nan, reached)
 
 
 def no_report(done: float) -> None:

@@ -82,17 +82,10 @@ class Hard(Case):
             ready = self.entrant.ready(self.scene, self.seed)
         except (ValueError, ArithmeticError) as error:
             return self.outcome(reached=0.0, refused=f"{type(error).__name__}: {str(error)[:60]}")
-        course = self.course(ready._replace(dt=self.step*ready.dt), report)
-        return self.found(course)
-
-    def course(self, ready: Ready, report: Report) -> Course:
-        """Make the run and record it."""
-        look, _, samples, watch = self.question
-        return followed(ready, self.time, samples, partial(look, self.scene), report, watch)
-
-    def found(self, course: Course) -> Outcome:
-        """The row of a run."""
-        return self.outcome(**self.question.answer(self.scene, course))
+        look, answer, samples, watch = self.question
+        ready = ready._replace(dt=self.step*ready.dt)
+        course = followed(ready, self.time, samples, partial(look, self.scene), report, watch)
+        return self.outcome(**answer(self.scene, course))
 
     def outcome(self, **values: Any) -> Outcome:
         """The row with these values."""
@@ -205,9 +198,9 @@ def of_one_mass(variant: Variant, scene: Any, seed: int) -> Ready:
 
 # --- what is recorded ---------------------------------------------------------------------------------------
 
-def fate(course: Course) -> Row:
+def fate(reached: float) -> Row:
     """The part of the time that a method reached, which did not refuse."""
-    return {"reached": course.reached, "refused": ""}
+    return {"reached": reached, "refused": ""}
 
 
 def copied(scene: Any, method: Any, state: np.ndarray) -> Fields:

@@ -11,12 +11,11 @@ from continuum.fluid import Fields, energy
 from particles.fields import kinetic, kinetic_energy
 from particles.run import Divergence, Plan, run
 from studies.build import answer
+from studies.build.measure import limit
 from studies.build.scenes import SOUND, TaylorGreen
 from studies.build.setting import Unguarded, bisected
 from studies.front.observed import apart
 from studies.front.solving import named, planned, prepared, solve
-from studies.kit import csvfile
-from studies.kit.store import RESULTS
 
 Numbers = dict[str, float]
 Taken = list[tuple[int, Numbers]]
@@ -130,8 +129,8 @@ def longest(scene: TaylorGreen, method: Any) -> Numbers:
         except (Divergence, ArithmeticError):
             return True
         return not max(K) < FED*first
-    limit, _ = bisected(grows, ready.limit)
-    share = limit/ready.limit
+    stable, _ = bisected(grows, ready.limit)
+    share = stable/ready.limit
     return {"claimed": ready.limit, "share": share, "grows": float(grows(ready.limit))}
 
 
@@ -178,12 +177,8 @@ def falling(taken: Taken, told: str, begins: str = "") -> Verdict:
 
 def convection(scene: Any, method: Any) -> Numbers:
     """K and Nu with errors; the relative difference of K from the grid's limit at Ra 10 000, Pr 1."""
-    rows = csvfile.read(RESULTS/"rb"/"kinetic_energy.csv")
-    limit = rows.query("method == 'compressible' and variant == 'flux-form' and eos == 'ideal' and "
-                       "transport == 'const-eta' and sides == 'periodic' and ra == 1e4 and pr == 1 and "
-                       "resolution == inf")["ke"].iloc[0]
     done = solve(scene, method)
-    off = done.K/limit - 1
+    off = done.K/limit("ke") - 1
     return {"K": done.K.value, "K_err": done.K.err, "Nu": done.Nu.value, "Nu_err": done.Nu.err,
             "error": off.value, "error_err": off.err, "cpu_s": done.cpu_s}
 

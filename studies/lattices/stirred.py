@@ -136,17 +136,13 @@ def of_pressure(sums: Any, state: np.ndarray) -> float:
 
 def of_noise(sums: Any, state: np.ndarray) -> float:
     """Amplitude of the stress -rho v v of velocities less the flow."""
-    u, v = beside(sums, state)
+    u, v = state[2:4] - of_flow(sums, state)*sums.method.v(state)
     return amplitude(np.array([(v*v - u*u)/2, -u*v]), sums.method.d(state))
 
 
 def of_flow(sums: Any, state: np.ndarray) -> float:
     """Amplitude A of the flow."""
     return amplitude(state[2:4], sums.method.v(state))
-
-
-def beside(sums: Any, state: np.ndarray) -> np.ndarray:
-    return state[2:4] - of_flow(sums, state)*sums.method.v(state)
 
 
 def amplitude(field: np.ndarray, shape: np.ndarray) -> float:

@@ -50,9 +50,9 @@ def twice(name: str, printed: str, value: Callable[[str], Value], words: str, **
             asked(id=f"own-{name}-growth", value=value(GROWTH), statement=f"{words}, zeros of growth rates")]
 
 
-def off_growth_rates(place: str, how: str) -> Value:
-    """Relative difference of the line's Ra_c from that of growth rates of the same solver."""
-    return abs(of_gas(place + how)/of_gas(place + GROWTH) - 1)
+def off_growth_rates(place: str) -> Value:
+    """Relative difference of the extrapolated line's Ra_c from that of growth rates of the same solver."""
+    return abs(of_gas(place + LINE_L2)/of_gas(place + GROWTH) - 1)
 
 
 FIVE = "five figures are half of 1e-4"
@@ -93,11 +93,11 @@ ONSET_CLAIMS = (
           headline=True, evidence="onset/line.png",
           because=FIVE,
           statement="the line of K extrapolated in L^-2 gives five figures of the critical Ra: difference "
-                    "from growth rates", value=off_growth_rates(LAYER, LINE_L2)),
+                    "from growth rates", value=off_growth_rates(LAYER)),
     Claim(id="khp95-ra-figures-square", source="KHP95 Sec. V, Fig. 6", printed="five significant figures",
           at_most=0.5e-4, because=FIVE,
           statement="the line of K extrapolated in L^-2 gives five figures of the critical Ra of the "
-                    "square: difference from growth rates", value=off_growth_rates(SQUARE, LINE_L2)),
+                    "square: difference from growth rates", value=off_growth_rates(SQUARE)),
     Claim(id="own-onset-branch-root", source="KHP95 Sec. V", expect=0.5, within=1e-3,
           value=power("branch", "sqrt(ke)", "above", "0 < above < 1e-3", width=2, pr=1),
           because="rolls that rise or sink at x = 0 are alike; the next term is as large as Ra/Ra_c - 1",

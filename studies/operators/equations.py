@@ -11,6 +11,7 @@ from particles.integral.dih import Dih, Flow, NestedFluxes, Pairwise, gained
 from particles.integral.edge_makers import renormalised
 from particles.integral.edges import Edges
 from particles.integral.points import lattice
+from particles.limits import rates_of
 from particles.weights import Lucy, WendlandC2
 from studies.kit.case import Case, Report
 from studies.kit.table import Row
@@ -63,13 +64,6 @@ def transported(dih: Dih, flow: Flow) -> np.ndarray:
     return gained(dih.edges, dih.transport.fluxes(dih, flow))/dih.edges.V
 
 
-def rates(dih: Dih, state: np.ndarray) -> np.ndarray:
-    """d(state)/dt."""
-    out = np.empty_like(state)
-    dih.rates(state, out)
-    return out
-
-
 def terms(dih: Dih, flow: Flow, exact: Spectral) -> Iterator[tuple[str, np.ndarray, np.ndarray]]:
     """(name, discrete, exact) of terms of Eqs 34-38 as printed, except for the trace factor, and of Eq. 51.
 
@@ -80,10 +74,10 @@ def terms(dih: Dih, flow: Flow, exact: Spectral) -> Iterator[tuple[str, np.ndarr
     stress = stress_tensor(eta, ZETA, exact.grad(v))
     current = kappa[:, None]*exact.grad(T)
     yield "viscous nested", transported(dih, flow)[1:-1].T, exact.div(stress)
-    still = rates(dih, dih.state(rho, 0*v, T))
+    still = rates_of(dih, dih.state(rho, 0*v, T))
     yield "pressure", still[1:-1].T, -exact.grad(P)
     yield "heat nested", still[-1], exact.div(current)
-    mass, *momentum, energy = rates(dih, dih.state(rho, v, T))
+    mass, *momentum, energy = rates_of(dih, dih.state(rho, v, T))
     yield "mass", mass, -exact.div(rho[:, None]*v)                                             # [Eq. 7]
     convected = rho[:, None, None]*v[:, :, None]*v[:, None, :]
     force = exact.div(stress - convected) - exact.grad(P)

@@ -2,7 +2,6 @@
 
 Limits of gradients in printed form are those of gradients by differences, a form that RR98 does not print.
 """
-
 from itertools import product
 
 from studies.kit.ask import Value, first, of, one, per_seed, rows, share

@@ -3,7 +3,6 @@
 Lengths in spacings; errors relative; `_err`: half of the 95 % interval.
 """
 from collections.abc import Iterator, Sequence
-from math import inf
 from typing import Any
 
 import numpy as np
@@ -11,13 +10,11 @@ import pandas as pd
 
 from particles.integral.interpolants import moment
 from particles.weights import Lucy
-from studies.kit.ask import one
-from studies.kit.csvfile import read
+from studies.build.measure import limit
 from studies.kit.fits import crossing, power_law
 from studies.kit.stats import Measured, seed_means, with_errors
-from studies.kit.sweep import RESULTS
 from studies.kit.table import Row, Rows, Table, Tables
-from studies.ordering.runs import FORMS, RA
+from studies.ordering.runs import FORMS
 
 #: rms width of Lucy's weight in 2D, RR98's r0, over its range
 WIDTH = float(np.sqrt(moment(Lucy.of(h=1.0, d=2), 3, 2)/4))
@@ -65,9 +62,6 @@ WIDE = 2.0          # spacings: ranges from which on errors are a power of the r
 WAVES = 4           # least number of wavelengths for a slope
 RESOLUTIONS = 3     # the same for slopes of flows, and of forms of the gradient
 WANTED = 0.01       # the error at which costs are compared
-#: row of the grid of the study rb, extrapolated
-GRID = {"method": "compressible", "variant": "flux-form", "eos": "ideal", "transport": "const-eta",
-        "sides": "periodic", "ra": RA, "pr": 1.0, "resolution": inf}
 FLOW_POINT = list(FLOWS.key)
 
 
@@ -132,7 +126,7 @@ def of_flows(tables: Tables) -> dict[str, Any]:
 
 def reference() -> Measured:
     """K of the grid of the study rb, extrapolated."""
-    return one("means", "ke", **GRID)(Tables({"means": read(RESULTS/"rb"/"means.csv")}))
+    return Measured(limit("ke"), limit("ke_err"))
 
 
 def convection(rows: pd.DataFrame, ke: float) -> pd.DataFrame:

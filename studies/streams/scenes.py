@@ -4,7 +4,6 @@ Flows are described in a box of height 1. The gas is ideal, C_V = 1, density and
 Errors are relative and in the frame of the stream.
 """
 from dataclasses import dataclass
-from functools import cache
 from math import pi, sqrt
 from operator import attrgetter
 from typing import Any, ClassVar
@@ -19,15 +18,13 @@ from continuum.scene import RayleighBenard
 from continuum.sides import HeatPath, Periodic, Sides, Sliding
 from particles.fields import kinetic_energy
 from studies.build import FALLS
+from studies.build.measure import RA, limit
 from studies.build.scenes import SOUND, Scene, Start
 from studies.build.setting import shaken
 from studies.front.observed import nusselt
-from studies.kit.csvfile import read
-from studies.kit.store import RESULTS
 
 ALONG = np.array([2.0, 1.0])/sqrt(5)        # direction of the stream: at an angle to rows of points
 CELLS = 256         # along each axis, in which densities are summed
-RA = 1e4
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -213,15 +210,6 @@ class Shear(Carried):
         """Complex amplitude of exp(i pi x/L) in v_y, in the frame of the stream."""
         x, v = (at.x - self.wind*time)[:, 0], at.v[:, 1] - self.wind[1]
         return complex(at.V@(v*np.exp(-1j*pi*x/self.L))/at.V.sum())
-
-
-@cache
-def limit(column: str) -> float:
-    """A column of the grid of the study rb, extrapolated."""
-    rows = read(RESULTS/"rb"/"means.csv").query(
-        "method == 'compressible' and variant == 'flux-form' and eos == 'ideal' and transport == 'const-eta' "
-        "and sides == 'periodic' and ra == @RA and pr == 1 and resolution == inf")
-    return float(rows[column].iloc[0])
 
 
 class Convection(Carried):
