@@ -22,11 +22,10 @@ TWO = u64(2)
 inlined = numba.njit(cache=True, nogil=True, forceinline=True, **OPTIONS)
 
 
-def check_seed(seed: int) -> int:
-    """Return the seed. Raises ValueError: it is not a whole number of 64 bits."""
+def check_seed(seed: int) -> None:
+    """Check that a seed is a whole number of 64 bits. Raises ValueError."""
     if not isinstance(seed, Integral) or isinstance(seed, bool) or not 0 <= int(seed) < 2**64:
         raise ValueError(f"the seed must be a whole number from 0 to 2^64 - 1, got {seed!r}")
-    return int(seed)
 
 
 @inlined

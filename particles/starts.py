@@ -17,12 +17,8 @@ def check_volumes(V: np.ndarray) -> None:
         raise ValueError(f"point {bad[0]} has volume {V[bad[0]]:g}: they must be positive and finite")
 
 
-class Overlap(ValueError):
-    """Two points lie in one place, where pairing may bring them, too."""
-
-
 def check_apart(around: PairLists, ids: np.ndarray, a: float) -> None:
-    """Raise Overlap if two points lie in one place, where they would stay; a : spacing. After `place`."""
+    """Raise ValueError if two points lie in one place, where they would stay. a : spacing. After `place`."""
     i, entry = entries(around.pairs, np.arange(around.n))
     j = around.pairs.near[entry]
     met = np.flatnonzero((around.x[j] - around.x[i])**2 + (around.y[j] - around.y[i])**2 < (OVERLAP*a)**2)
@@ -31,8 +27,8 @@ def check_apart(around: PairLists, ids: np.ndarray, a: float) -> None:
     i, j = i[met[0]], j[met[0]]
     j = j if j < around.n else ghosts_of(around).origin[j - around.n]
     told = "lies on a plate, where it meets its own image" if i == j else f"and point {ids[j]} overlap"
-    raise Overlap(f"point {ids[i]} {told} at ({around.x[i]:g}, {around.y[i]:g}): move "
-                  f"{'it inside' if i == j else 'one of them'}")
+    raise ValueError(f"point {ids[i]} {told} at ({around.x[i]:g}, {around.y[i]:g}): move "
+                     f"{'it inside' if i == j else 'one of them'}")
 
 
 def moments(around: PairLists, V: np.ndarray) -> np.ndarray:

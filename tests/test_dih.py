@@ -29,7 +29,7 @@ def fluid(maker="renormalised", d=2, size=0.2, transport="pairwise", counts=None
 def test_mass_momentum_and_energy_are_conserved(maker, d, transport):
     dih, at = fluid(maker, d, transport=transport, zeta=0.1)
     found = rates(dih, dih.state(*random_fields(at.n, at.d)))
-    assert np.all(np.abs(dih.conserved(found)) < 1e-13*np.abs(found)@dih.edges.V)
+    assert np.all(np.abs(found@dih.edges.V) < 1e-13*np.abs(found)@dih.edges.V)
 
 
 @pytest.mark.parametrize("transport", TRANSPORT)

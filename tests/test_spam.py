@@ -192,7 +192,7 @@ def test_errors_name_value_rule_and_way_out():
         prepare(free(), np.empty((5, 0)))
     with pytest.raises(ValueError, match="skin of the neighbour list must be positive, got 0"):
         prepare(free(skin=0.0), crowd(BOX, 3, 3))
-    with pytest.raises(ValueError, match=r"lacks a part of the stress where viscosity varies.*take Nested"):
+    with pytest.raises(ValueError, match=r"lacks a part of the stress where viscosity varies.*or Nested"):
         free(law=NU, transport=Direct)
 
 

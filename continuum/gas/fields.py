@@ -156,18 +156,16 @@ class Nusselt(NamedTuple):
     bottom: float
     top: float
     volume: float
-    loss: float  # net heat that enters through all walls, over that through the bottom
 
 
 def nusselt(fields: NodeFields) -> Nusselt:
-    """Nusselt numbers; `bottom`, `top` from one-sided second-order gradients; `loss` includes side walls."""
-    scene = fields.scene
+    """Nusselt numbers; `bottom`, `top` from one-sided second-order gradients."""
+    scene, T = fields.scene, fields.at.T
     unit = scene.k*scene.dT/scene.L
-    k = conductivity(scene.law, fields.at.rho, fields.at.T)*np.ones_like(fields.at.T)
-    south, north, west, east = (wall_flux(f, q, fields.h)/(unit*scene.aspect*scene.L) for f, q in zip(
-        (fields.at.T, fields.at.T[::-1], fields.at.T.T, fields.at.T.T[::-1]), (k, k[::-1], k.T, k.T[::-1])))
-    sides = 0.0 if fields.periodic else west + east
-    return Nusselt(south, -north, float(np.mean(energy_flux(fields)))/unit, (south + north + sides)/south)
+    k = conductivity(scene.law, fields.at.rho, T)*np.ones_like(T)
+    south, north = (wall_flux(f, q, fields.h)/(unit*scene.aspect*scene.L)
+                    for f, q in ((T, k), (T[::-1], k[::-1])))
+    return Nusselt(south, -north, float(np.mean(energy_flux(fields)))/unit)
 
 
 def wall_flux(T: np.ndarray, k: np.ndarray, h: float) -> float:

@@ -48,16 +48,6 @@ class Gas(PDEBase):
         """py-pde's fields from an array (fields, columns, rows)."""
         return FieldCollection([ScalarField(self.grid, f) for f in data], labels=list(self.names))
 
-    @property
-    def viscous_time(self) -> float:
-        """L^2/nu at density 1."""
-        return self.scene.viscous_time
-
-    @property
-    def grid_box(self) -> tuple[float, float]:
-        """Width and height of the box."""
-        return self.scene.width, self.scene.L
-
     def step_limit(self) -> float:
         """Largest stable time step of RK4 at density 1, from sound, advection and diffusion."""
         scene = self.scene
@@ -113,10 +103,6 @@ class Gas(PDEBase):
         rho, u, v = self.padded(data)[:3]
         twice = np.sum(mx(rho)[1:, 1:-1]*u[1:-1, 1:-1]**2 + my(rho)[1:-1, 1:]*v[1:-1, 1:-1]**2)
         return float(twice/2/np.sum(data[RHO])), self.nusselt(data)[0], float(np.mean(data[RHO]))
-
-    def rising(self, data: np.ndarray) -> np.ndarray:
-        """Vertical velocity along mid-height."""
-        return data[VY, :, self.rows//2 - 1]
 
     def nusselt(self, data: np.ndarray) -> tuple[float, float]:
         """Nusselt numbers of the lower and the upper plate, from the scheme's own heat flux. One-sided

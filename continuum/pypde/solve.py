@@ -17,7 +17,7 @@ from scipy.interpolate import RectBivariateSpline
 
 from continuum.gas.solve import DivergedError
 from continuum.jit import jit
-from continuum.pypde.gas_loop import rate
+from continuum.pypde.gas_loop import VY, rate
 from continuum.steady import STILL, GridRun, Steady, of_samples, steps_between
 
 Until = Any             # Steady or Time of continuum.steady
@@ -112,7 +112,7 @@ def solve(equation: Any, *, until: Until = Steady(), start: PdeSolution | np.nda
     """
     data = onto(equation, start) if isinstance(start, PdeSolution) else (
         equation.rolls() if start is None else start.copy())
-    interval = until.interval(equation)
+    interval = until.interval(equation.scene)
     step = interval/steps_between(interval, equation.step_limit(), dt)
     watch = Watch(equation, until, interval, step, progress)
     try:
@@ -123,10 +123,11 @@ def solve(equation: Any, *, until: Until = Steady(), start: PdeSolution | np.nda
         if equation.diagnostics.get("controller", {}).get("stop_reason") == "User interrupted simulation":
             raise KeyboardInterrupt
     seconds, solver = info["controller"]["profiler"], info["solver"]
+    along = state.data[VY, :, equation.rows//2 - 1]
     return PdeSolution(
         equation=equation, state=state.data.copy(), nusselt=equation.nusselt(state.data),
-        rolls=0 if watch.ke[-1] < STILL else count_rolls(equation.rising(state.data)), dt=solver["dt"],
-        steps=solver["steps"], cpu_s=seconds["solver"] + seconds["tracker"], compile_s=seconds["compilation"],
+        rolls=0 if watch.ke[-1] < STILL else count_rolls(along), dt=solver["dt"], steps=solver["steps"],
+        cpu_s=seconds["solver"] + seconds["tracker"], compile_s=seconds["compilation"],
         **of_samples(watch.until, watch.samples))
 
 
@@ -139,9 +140,10 @@ def count_rolls(v: np.ndarray) -> int:
 def onto(equation: Any, start: PdeSolution) -> np.ndarray:
     """State of a solution on another grid, by cubic splines through its values and ghosts."""
     old = start.equation
-    if not np.allclose(old.grid_box, equation.grid_box):
-        raise ValueError(f"start is in a box {old.grid_box}, the equation in {equation.grid_box}: start from "
-                         "rolls or from the same box")
+    here, box = old.grid.axes_bounds, equation.grid.axes_bounds
+    if not np.allclose(here, box):
+        raise ValueError(f"start is in a box {here}, the equation in {box}: start from rolls or from the "
+                         "same box")
     parts = []
     for n, f in enumerate(old.padded(start.state)[:len(start.state)]):
         (a, b), (x, y) = old.points(n), equation.points(n)

@@ -105,7 +105,7 @@ class Forces(Sums):
 
     def __init__(self, method: Dpd, n: int, threads: Threads):
         self.method, self.n, self.threads, self.places = method, n, threads, method.d
-        self.images = Images(n, method.box, 1.0, method.skin, threads)
+        self.images = Images(n, method.box, method.skin, threads)
         self.total, self.taken = np.empty((n, 3)), (np.empty(n, u64), np.empty(n, u32))
         self.particle, self.dt = np.empty(0, pairs3d.Record), 1.0
         self.now: Any = None                       # the run
@@ -124,12 +124,12 @@ class Forces(Sums):
 
     def make_ready(self, now: Any, dt: float) -> None:
         """Sort particles every SORT steps; make the first force."""
-        d, self.now, self.dt = self.places, now, dt
+        d, self.dt = self.places, dt
         if now.step % SORT == 0:
             order = self.images.order(now.state[:d])
             now.state[:], now.ids[:], self.images.anchor = now.state[:, order], now.ids[order], None
         if now.step == 0:
-            self._force(self.method.law(dt), 0, *now.state[:3*d].reshape(3, d, -1))
+            self._force(self.method.law(dt), 0, *now.state.reshape(3, d, -1))
 
     def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
         """Every finite state is valid."""
@@ -165,12 +165,12 @@ class Forces(Sums):
         for component, name in zip(v, ("vx", "vy", "vz")):
             component[:] = self.particle[name][:self.n]
 
-    def over_pairs(self, term: Any, state: np.ndarray, columns: int) -> np.ndarray:
-        """Sums (n, columns) of a term over the pairs of a state, without noise."""
-        d, out = self.places, np.empty((self.n, columns))
-        law = self.method.law(self.dt)._replace(sigma=0.0)
-        self._sum(term, law, 0, state[:d], state[d:2*d], out)
-        return out
+    def static(self, state: np.ndarray) -> np.ndarray:
+        """Sums (n, 5) of `Static`, computed once for all quantities of a record."""
+        if self.seen is None:
+            d, a, self.seen = self.places, self.method.a, np.empty((self.n, 5))
+            self._sum(Static(d, a), Law(a, 0.0, 0.0), 0, state[:d], state[d:2*d], self.seen)
+        return self.seen
 
     def _force(self, law, step, x, v, out):
         self._sum(Force(), law, step, x, v, self.total)
@@ -209,21 +209,14 @@ def _(term, a, b, ab):
     return fx, fy, fz, term.a - (term.d - 1)*ab.f, fx*ab.dx + fy*ab.dy + fz*ab.dz
 
 
-def static_sums(sums: Any, state: np.ndarray) -> np.ndarray:
-    """Sums (n, 5) of `Static`, computed once for all quantities of a record."""
-    if sums.seen is None:
-        sums.seen = sums.over_pairs(Static(sums.method.d, sums.method.a), state, 5)
-    return sums.seen
-
-
 def forces_squared(sums: Any, state: np.ndarray) -> float:
     """Mean |F|^2 per particle."""
-    return float((static_sums(sums, state)[:, :3]**2).sum()/sums.n)
+    return float((sums.static(state)[:, :3]**2).sum()/sums.n)
 
 
 def laplacian(sums: Any, state: np.ndarray) -> float:
     """Mean Laplacian of the potential U per particle."""
-    return float(static_sums(sums, state)[:, 3].sum()/sums.n)
+    return float(sums.static(state)[:, 3].sum()/sums.n)
 
 
 def kinetic_temperature(sums: Any, state: np.ndarray) -> float:
@@ -239,5 +232,5 @@ def configurational_temperature(sums: Any, state: np.ndarray) -> float:
 def pressure(sums: Any, state: np.ndarray) -> float:
     """P = [n kT + sum over pairs F.r/d]/V, kT that of the velocities."""
     n, d = sums.n, sums.places
-    virial = static_sums(sums, state)[:, 4].sum()/2
+    virial = sums.static(state)[:, 4].sum()/2
     return float((n*kinetic_temperature(sums, state) + virial/d)/sums.method.volume)

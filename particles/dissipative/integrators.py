@@ -85,7 +85,7 @@ class KickDriftFrictionDriftKick(GrootWarren):
 
     def step(self, sums: Any, y: np.ndarray, dt: float) -> None:
         d, new = sums.places, self._new
-        x, v, f = y[:d], y[d:2*d], y[2*d:3*d]
+        x, v, f = y[:d], y[d:2*d], y[2*d:]
         v += dt/2*f
         x += dt/2*v
         sums.rub(x, v, dt)

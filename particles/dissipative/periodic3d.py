@@ -164,11 +164,14 @@ class WithGhosts(NamedTuple):
 
 
 class Images:
-    """Ghosts and neighbour lists of n particles in a periodic box (d,), d = 2 or 3, centred on the origin."""
+    """Ghosts and neighbour lists of n particles in a periodic box (d,), d = 2 or 3, centred on the origin.
 
-    def __init__(self, n: int, box: tuple[float, ...], reach: float, skin: float, threads: Threads):
+    reach : of the lists, the range 1 and the skin.
+    """
+
+    def __init__(self, n: int, box: tuple[float, ...], skin: float, threads: Threads):
         self.n, self.box, self.threads = n, np.array(box, float), threads
-        self.reach, self.skin = reach, skin
+        self.reach, self.skin = 1.0 + skin, skin
         self.anchor: np.ndarray | None = None
         self.lists = Lists(np.empty(n, u64), np.empty(n, u32), np.empty(0, u32))
         self.points = WithGhosts(np.empty(0, np.int64), np.empty((0, 3)))
@@ -181,11 +184,11 @@ class Images:
         """Indices of the particles in cell order."""
         places = np.zeros((self.n, 3))
         places[:, :len(x)] = (x - self.box[:, None]*np.floor(x/self.box[:, None] + 0.5)).T
-        return sort_into_cells(places, self.reach + self.skin).order
+        return sort_into_cells(places, self.reach).order
 
     def relist(self, x: np.ndarray) -> None:
         """Make ghosts and lists for particles at x (d, n)."""
-        reach, d = self.reach + self.skin, len(self.box)
+        reach, d = self.reach, len(self.box)
         self.anchor = x.copy()
         places = self._make_points(x)
         cells = sort_into_cells(places, reach)
@@ -201,11 +204,10 @@ class Images:
 
     def _make_points(self, x: np.ndarray) -> np.ndarray:
         """Make `points`: particles in the box, and ghosts. Returns their places (points, 3)."""
-        margin, count = self.reach + self.skin, -1
-        room = int(1.1*self.n*np.prod(1 + 2*margin/self.box)) + 100
+        count, room = -1, int(1.1*self.n*np.prod(1 + 2*self.reach/self.box)) + 100
         while count < 0:
             parent, shift = np.empty(room, np.int64), np.empty((room, 3))
-            count, room = _ghosts(x, self.box, len(x), margin, parent, shift), 2*room
+            count, room = _ghosts(x, self.box, len(x), self.reach, parent, shift), 2*room
         self.points = WithGhosts(parent[:count], shift[:count])
         places = shift[:count].copy()
         places[:, :len(x)] += x[:, parent[:count]].T

@@ -227,7 +227,3 @@ class Dih:
         flow, edges = self.flow(state), self.edges
         moved = carried(self.eos, edges.S, take(flow, edges.i), take(flow, edges.j))
         out[:] = gained(edges, moved, self.transport.fluxes(self, flow))/edges.V
-
-    def conserved(self, state: np.ndarray) -> np.ndarray:
-        """Total mass, momentum and energy of all points, (2 + d,)."""
-        return state@self.edges.V

@@ -221,18 +221,10 @@ class StableStream(Stream):
         flow_of(self, Pressure)
 
 
-def longest(method: Any, start: np.ndarray) -> float:
+@limit_of.register(StableLayer)
+@limit_of.register(StableStream)
+def _(method: Any, start: np.ndarray) -> float:
     """Longest step that is known to keep rho, e > 0 at the start."""
     sums = method.start(start.shape[1], Threads(1))
     sums.look_at(start)
     return float(sums.longest())
-
-
-@limit_of.register
-def _(method: StableLayer, start: np.ndarray) -> float:
-    return longest(method, start)
-
-
-@limit_of.register
-def _(method: StableStream, start: np.ndarray) -> float:
-    return longest(method, start)

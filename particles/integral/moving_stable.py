@@ -28,14 +28,13 @@ DENSITIES = [6, 4, 5, 8]
 
 
 class StableRings(Limits, RingSums):
-    """Compiled sums, stepped in Python. slowed : number of halved parts in which a triangle would have turned
-    over; the points around it then get one velocity."""
+    """Compiled sums, stepped in Python."""
     method: "StableDelaunay"
 
     def __init__(self, method: "StableDelaunay", threads: Threads):
         super().__init__(method, threads)
         self.set_limits(method.flow)
-        self.images, self.slowed, self.turned = NO_IMAGES, 0, -1
+        self.images, self.turned = NO_IMAGES, -1
         self.whole, self.densities = np.zeros((self.n, 8)), np.zeros((2, 4, self.n))
         self.points = np.zeros(self.n, Point)
         self.bench = self.bench._replace(points=self.points)
@@ -185,7 +184,6 @@ class StableRings(Limits, RingSums):
             near = self.edges.near[first:first + self.edges.taken[self.turned]]
             ring = np.array([self.turned, *near.astype(int)])
             state[2:4, ring[self.bench.free[ring]]] = state[2:4, ring].mean(axis=1, keepdims=True)
-            self.slowed += 1
 
     def end(self, state: np.ndarray, h: float) -> str:
         """Message why the run cannot go on, with the point, its state and its edges."""

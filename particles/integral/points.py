@@ -42,11 +42,6 @@ class Points:
         """Mean spacing, (box volume/n)^(1/d)."""
         return float((np.prod(self.box)/self.n)**(1/self.d))
 
-    def separation(self, i: np.ndarray, j: np.ndarray) -> np.ndarray:
-        """x_j - x_i, to the nearest image of j, (pairs, d)."""
-        d = self.x[j] - self.x[i]
-        return d - self.box*np.round(d/self.box)
-
 
 def of_positions(x: np.ndarray, box: Any) -> Points:
     """Points of equal volume."""
@@ -99,7 +94,7 @@ def _thinned(x: np.ndarray, box: np.ndarray, apart: float) -> np.ndarray:
 
 
 def wrapped(x: np.ndarray, box: np.ndarray) -> np.ndarray:
-    """Positions wrapped into the box."""
+    """Positions wrapped into the box; separations, to the nearest image."""
     return x - box*np.round(x/box)
 
 
@@ -112,7 +107,7 @@ def pairs(points: Points, distance: float) -> tuple[np.ndarray, np.ndarray, np.n
     i, j = tree.query_pairs(distance, output_type="ndarray").T
     order = np.lexsort((j, i))
     i, j = i[order], j[order]
-    apart = points.separation(i, j)
+    apart = wrapped(points.x[j] - points.x[i], points.box)
     r = np.sqrt((apart**2).sum(axis=1))
     if len(r) and r.min() < 1e-9*points.a:
         k = int(np.argmin(r))

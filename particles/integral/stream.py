@@ -65,11 +65,6 @@ class Streaming(FixedSums):
             out[3, held.which] += held.heat/V[held.which]
             self.received[:, 2] -= held.heat
 
-    def force(self, state: np.ndarray) -> np.ndarray:
-        """Force of the fluid on all held points together, and heat and work per time: (fx, fy, power)."""
-        self.rates(state, np.empty_like(state))
-        return self.received.sum(axis=0)
-
 
 @dataclass(frozen=True, kw_only=True)
 class Stream(OnPoints):

@@ -113,6 +113,7 @@ for kind in (*PRESSURE_ONLY, All):
 class Corrected(Direct):
     """Sums with corrected gradients and one of the terms of pressure."""
     term: ClassVar[Any] = SumB()
+    along_pairs = False
 
     def allocate(self, points: int) -> None:
         super().allocate(points)

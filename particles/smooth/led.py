@@ -3,8 +3,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from particles.smooth.sums import Direct, check_along_pairs
-from particles.threads import Threads
+from particles.smooth.sums import Direct
 from particles.walls import mirrored
 
 MOVED = 0.25        # part of the skin that a particle may use before a step; d uses no more of it in the step
@@ -14,10 +13,6 @@ class Led(Direct):
     """Base class of shifted and transported particles. numbers : record type; vectors : mirrored fields."""
     numbers: ClassVar[np.dtype]
     vectors: ClassVar[tuple[tuple[str, str], ...]] = (("dx", "dy"),)
-
-    def __init__(self, method: Any, n: int, threads: Threads):
-        check_along_pairs(method.law)
-        super().__init__(method, n, threads)
 
     def make_ready(self, now: Any, dt: float) -> None:
         if self.around.anchor is not None and self.around.moved(now.state) > MOVED*self.around.skin:

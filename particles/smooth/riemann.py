@@ -11,8 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from particles.pairs import pair_term
-from particles.smooth.sums import Direct, DirectState, check_along_pairs, sound
-from particles.threads import Threads
+from particles.smooth.sums import Direct, DirectState, sound
 
 State = np.dtype([*DirectState.descr, ("c", "f8")])
 
@@ -35,10 +34,6 @@ def _(term, a, b, ab):
 
 class LowDissipationSums(Direct):
     """Sums of classic SPH with the term `LowDissipation`."""
-
-    def __init__(self, method: Any, n: int, threads: Threads):
-        check_along_pairs(method.law)
-        super().__init__(method, n, threads)
 
     def allocate(self, points: int) -> None:
         super().allocate(points)

@@ -67,9 +67,9 @@ class Spam:
         if not hasattr(self.transport, "symbol"):
             raise TypeError(f"{self.transport} does not say which waves it damps: inherit Nested or Direct, "
                             "or set symbol")
-        if self.transport is Direct and not constant_viscosity(self.law):
+        if self.transport.along_pairs and not constant_viscosity(self.law):
             raise ValueError("friction along pairs lacks a part of the stress where viscosity varies, as by "
-                             f"{self.law}: take Nested, or ConstEta")
+                             f"{self.law}: take ConstEta, or Nested or corrected gradients")
 
     def state(self, x: np.ndarray, rho: Any, v: np.ndarray, T: np.ndarray) -> np.ndarray:
         """State (rows, n) from places (n, 2), velocities (n, 2), temperatures (n,), densities rho."""

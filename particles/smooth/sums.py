@@ -4,16 +4,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from continuum.fluid import (
-    conductivity,
-    constant_viscosity,
-    energy,
-    pressure,
-    sound_speed,
-    stress,
-    temperature,
-    viscosity,
-)
+from continuum.fluid import conductivity, energy, pressure, sound_speed, stress, temperature, viscosity
 from continuum.jit import formula, jit
 from particles.lists import Listed, PairLists, unphysical
 from particles.pairs import sweep
@@ -31,9 +22,10 @@ class SmoothSums(Listed, ABC):
 
     places : number of leading rows of a state that are positions; `velocity` : their rates, for integrators
     that step positions separately. symbol : field of `particles.limits.Symbols` that replaces the squared
-    wave number. of_state : names of the rows of a state.
+    wave number. of_state : names of the rows of a state. along_pairs : whether friction goes along pairs
+    alone, which needs a constant viscosity.
     """
-    places = 2
+    places, along_pairs = 2, False
     of_state: ClassVar[tuple[str, ...]] = ("x", "y", "vx", "vy", "e")
     symbol: ClassVar[str]
 
@@ -133,7 +125,7 @@ class Nested(SmoothSums):
 
 class Direct(SmoothSums):
     """Viscosity and conduction along each pair: no gradients, unless `LessStatic` needs div v."""
-    symbol = "direct"
+    symbol, along_pairs = "direct", True
 
     def allocate(self, points: int) -> None:
         super().allocate(points)
@@ -149,13 +141,6 @@ class Direct(SmoothSums):
         self.threads(_direct, len(around.x), self.method.law, around.x, around.y, around.rho, around.vx,
                      around.vy, around.T, less, self.records)
         return DirectFluxes(), self.records
-
-
-def check_along_pairs(law: Any) -> None:
-    """Check that viscosity is constant, which friction along pairs alone needs. Raises ValueError."""
-    if not constant_viscosity(law):
-        raise ValueError("friction along pairs lacks a part of the stress where viscosity varies, as by "
-                         f"{law}: take ConstEta, or a transport with corrected gradients, as CRKSPH")
 
 
 @jit
