@@ -9,7 +9,7 @@ About rest at summed density rho, without conduction, displacements u exp(ik.r) 
 The sums are over the neighbours r of a particle; c is the isentropic speed of sound. A motion with a negative
 eigenvalue of M grows: with some weights lattices turn into pairs; fluids under negative pressure clump.
 """
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
@@ -165,20 +165,20 @@ class Crystal:
         return {"lattice": self.lattice.name, "weight": self.weight.__name__, "h": self.h,
                 "eos": type(self.eos).__name__, "T": self.T, "rho": self.rho}
 
-    def energies(self, seed: int) -> np.ndarray:
-        """Kinetic energies per mass after random shifts, for PATIENCE or until the run diverges."""
+    def energies(self, time: float, shifts: Callable) -> tuple[np.ndarray, np.ndarray]:
+        """Times and kinetic energies per mass until the run diverges. shifts : x -> shifts over SHIFT."""
         x, energies = self.lattice.places(self.cells), list[float]()
-        shifts = SHIFT*np.random.default_rng(seed).standard_normal(x.shape)
 
         def kinetic(sums: Any, state: np.ndarray) -> float:
             energies.append(particle_kinetic(sums, state))      # kept also when the run diverges
             return energies[-1]
         method = fluid(self.weight.of(h=self.h), self.lattice.box(self.cells), self.eos, m=self.rho)
         dt = STUDIES*step_limit(method, self.e, self.rho)
-        plan = Plan(dt=dt, steps=round(PATIENCE/dt), series={"k": kinetic}, every=2)
+        plan = Plan(dt=dt, steps=round(time/dt), series={"k": kinetic}, every=2)
         with suppress(Divergence):
-            run(method, at_rest(x + shifts, self.e), plan)
-        return np.array(energies)
+            run(method, at_rest(x + SHIFT*shifts(x), self.e), plan)
+        times = 2*dt*(1 + np.arange(len(energies)))
+        return times, np.array(energies)
 
 
 # --- cases ----------------------------------------------------------------------------------------
@@ -225,7 +225,8 @@ class Onset(Case, table="onsets", same="parameter seed"):
 
     def grows(self, value: float) -> bool:
         """Whether the mean energy of the last tenth of a run exceeds GROWN times that of the second."""
-        energies = self.at(value).energies(self.seed)
+        rng = np.random.default_rng(self.seed)
+        _, energies = self.at(value).energies(PATIENCE, lambda x: rng.standard_normal(x.shape))
         tenth = max(1, len(energies)//10)
         early, late = energies[tenth:2*tenth].mean(), energies[-tenth:].mean()
         return bool(late > GROWN*early)
