@@ -189,8 +189,8 @@ def test_a_comparison_has_a_row_a_method_and_resolution_and_tells_what_diverged(
     assert (tmp_path/"all.png").stat().st_size > 10000
 
 
-@pytest.mark.parametrize("value, err, words", [(0.0049912, 0.0000123, "0.00499(1)"), (1.8, 0.0, "1.8"),
-                                               (1.236, 0.096, "1.2(1)"), (1234.5, 20.0, "1234(20)"),
+@pytest.mark.parametrize("value, err, words", [(0.0049912, 0.0000123, "0.004991(12)"), (1.8, 0.0, "1.8"),
+                                               (1.236, 0.096, "1.24(10)"), (1234.5, 20.0, "1234(20)"),
                                                (1.23e-8, 4e-10, "1.23(4)e-8")])
 def test_numbers_are_written_with_their_error_in_the_last_digit(value, err, words):
     assert str(Measured(value, err)) == words

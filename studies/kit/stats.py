@@ -58,15 +58,18 @@ class Measured(NamedTuple):
         return Measured(ratio, hypot(self.err, ratio*b.err)/abs(b.value))
 
     def __str__(self) -> str:
-        """Value with the error in units of the last digit, 0.00499(1); five digits if it has no error."""
+        """17.5(15) for 17.5 +- 1.5: the error in units of the last digit, with two digits if its first is 1.
+
+        Without an error the value has five digits.
+        """
         if not 0 < self.err < inf:
             return f"{self.value:.5g}"
         power = floor(log10(max(abs(self.value), self.err)))
         if not -5 < power < 7:
             return f"{self*10.0**-power}e{power}"
-        err = float(f"{self.err:.0e}")
-        places = max(0, -floor(log10(err)))
-        return f"{self.value:.{places}f}({err*10**places:.0f})"
+        size = floor(log10(self.err))
+        places = max(0, (self.err < 2*10.0**size) - size)
+        return f"{self.value:.{places}f}({self.err*10**places:.0f})"
 
     def __rtruediv__(self, other: float) -> "Measured":
         return measured(other)/self

@@ -17,6 +17,7 @@ from typing import Any, NamedTuple
 import pandas as pd
 
 from studies.kit.claim import Cited, places
+from studies.kit.stats import Measured
 from studies.report.inventory import NoReport, claims_of
 
 SENTENCES = Path(__file__).with_name("sentences")
@@ -152,21 +153,10 @@ def link(name: str, out: Path) -> str:
 
 
 def with_error(value: float, err: float) -> str:
-    """17.5(15) for 17.5 +- 1.5: the error is in units of the last digit, with two digits if the first is 1.
-
-    Without an error, the value with four digits.
-    """
+    """17.5(15) for 17.5 +- 1.5; without an error, the value with four digits."""
     if not math.isfinite(value):
         return "none"
-    if not 0 < err < math.inf:
-        return signed(f"{value:.4g}")
-    size = math.floor(math.log10(err))
-    digits = 2 if err/10**size < 2 else 1
-    places = max(0, digits - 1 - size)
-    if places >= 8:
-        return signed(f"{value:.3g} ± {err:.1g}")
-    last = round(err*10**places)
-    return signed(f"{value:.{places}f}({last})")
+    return signed(str(Measured(value, err)) if 0 < err < math.inf else f"{value:.4g}")
 
 
 def signed(text: str) -> str:
