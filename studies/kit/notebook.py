@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 
 from studies.kit.csvfile import read
 from studies.kit.figure import compact
+from studies.kit.stats import Measured
 
 rcParams.update({"savefig.dpi": 70, "legend.fontsize": 8})
 # print only the message of a warning: the path of the file says nothing to a reader
@@ -56,12 +57,8 @@ def pm(value: float, err: float = 0.0) -> str:
     """A value with its interval in units of the last digit, such as 0.00312(2)."""
     if not np.isfinite(value):
         return ""
-    if not err > 1e-9*abs(value):       # no error, or round-off
-        return f"{value:.4g}"
-    digits = int(-np.floor(np.log10(err/2)))
-    if digits <= 0:
-        return f"{value:.0f} ± {err:.0f}"
-    return f"{value:.{digits}f}({err*10**digits:.0f})"
+    exact = not err > 1e-9*abs(value)       # no error, or round-off
+    return f"{value:.4g}" if exact else str(Measured(value, err))
 
 
 def percent(value: float, err: float = 0.0) -> str:
