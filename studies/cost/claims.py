@@ -77,8 +77,8 @@ CLAIMS = (
     carried("k", K, seconds(GRID, K), 1, "the seconds of the compressible grid"),
     carried("5000", LOWER_K, seconds(GRID, LOWER_K), 1, "the seconds of the compressible grid"),
     carried("velocity", FLOW, seconds(GRID, FLOW), 4, "four times the seconds of the compressible grid",
-            "three seeds with 24 rows had left it open, twelve more were asked for; then 5.1(6) had been seen "
-            "with rolls placed by a phase that is noisy on points that move"),
+            "three seeds with 24 rows had left it open, twelve more were asked for; then 5.1(6) had been "
+            "seen with rolls placed by a phase that is noisy on points that move"),
     carried("vortex", VORTEX, STAGGERED, 1.5, "one and a half times the seconds of staggered grids, at rest"),
     Claim(id="own-speed-carried-step", source="RR98 Sec. III", at_most=200, because=ASKED,
           value=one("growth", "1e9*step_s/points", "20000 <= points <= 21000 and threads == 1",
