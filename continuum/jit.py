@@ -7,12 +7,14 @@ import hashlib
 import os
 import sys
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 ROOT = Path(__file__).resolve().parent.parent
 
 
+@cache      # taken below, when the sources are imported: a run is of these, whatever is edited meanwhile
 def source_hash() -> str:
     """Hash of the sources of all packages that hold compiled code."""
     digest = hashlib.sha256()

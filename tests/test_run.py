@@ -10,6 +10,7 @@ import h5py
 import numpy as np
 import pytest
 
+from continuum import jit
 from continuum.scene import Walls
 from particles import checkpoint
 from particles.integrators import RK4
@@ -110,6 +111,12 @@ def test_a_checkpoint_of_other_code_or_a_broken_one_is_refused(tmp_path, monkeyp
         file.attrs["step"] = 0
     with pytest.raises(ValueError, match="not as it was written"):
         run(method, start, plan)
+
+
+def test_an_edit_of_sources_during_a_run_does_not_change_the_code_of_its_checkpoints(tmp_path, monkeypatch):
+    before = jit.source_hash()
+    monkeypatch.setattr(jit, "ROOT", tmp_path)
+    assert jit.source_hash() == before
 
 
 @pytest.mark.parametrize("change", [lambda now: replace(now, state=now.state[:4]),
