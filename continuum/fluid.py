@@ -228,19 +228,12 @@ def conductivity(transport, rho, T):
     """Heat conductivity k(rho, T)."""
 
 
-@generic
-def bulk_viscosity(law, rho, T):
-    """Bulk viscosity zeta(rho, T); a number as law is constant."""
-
-
 viscosity.of(ConstEta)(lambda transport, rho, T: transport.eta)
 conductivity.of(ConstEta)(lambda transport, rho, T: transport.k)
 viscosity.of(ConstNu)(lambda transport, rho, T: rho*transport.nu)
 conductivity.of(ConstNu)(lambda transport, rho, T: rho*transport.cv*transport.kappa)
 viscosity.of(PowerLaw)(lambda transport, rho, T: transport.eta*rho**transport.m*T**transport.n)
 conductivity.of(PowerLaw)(lambda transport, rho, T: transport.k*rho**transport.m*T**transport.n)
-for _number in (int, float, np.float64):
-    bulk_viscosity.of(_number)(lambda law, rho, T: law)
 
 
 def diffusivity(eos, law, rho, e):

@@ -182,12 +182,12 @@ def means(q: Coefficients, i: np.ndarray, j: np.ndarray) -> Coefficients:
 class Dih:
     """A fluid on fixed points.
 
-    zeta : bulk viscosity, a number or a law. transport : NestedFluxes, Pairwise or Mixed.
+    zeta : bulk viscosity. transport : NestedFluxes, Pairwise or Mixed.
     """
     edges: Edges
     eos: Any
     law: Any
-    zeta: Any = 0.0
+    zeta: float = 0.0
     transport: Any = Pairwise()
 
     @property
@@ -219,7 +219,7 @@ class Dih:
     def coefficients(self, flow: Flow) -> Coefficients:
         one = np.ones_like(flow.rho)
         return Coefficients(fluid.viscosity(self.law, flow.rho, flow.T)*one,
-                            fluid.bulk_viscosity(self.zeta, flow.rho, flow.T)*one,
+                            self.zeta*one,
                             fluid.conductivity(self.law, flow.rho, flow.T)*one)
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
