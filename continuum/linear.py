@@ -10,7 +10,6 @@ functions are Chebyshev polynomials times a factor that meets the conditions at 
 exact integrals; w'' = 0 on a free plate is a natural boundary condition. At onset, with nu = kappa, the
 matrix of buoyant work over that of dissipation has the largest eigenvalue Ra^-1/2.
 """
-from enum import Enum
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -23,13 +22,7 @@ from continuum.scene import positive
 
 DEGREE = 20     # trial functions for w and for theta each; from 14 on Ra_c has 12 figures
 IN_SQUARE = 14  # trial functions in each direction: Ra_c has 8 figures, with 8 functions 6
-
-
-class PlateKind(Enum):
-    """Order of the zero of w on the (lower, upper) plate; 2: w = w' = 0, rigid; 1: w = w'' = 0, free."""
-    RIGID = (2, 2)
-    FREE = (1, 1)
-    RIGID_FREE = (2, 1)
+RIGID, FREE = 2, 1      # plates: order of the zero of w on both; w = w' = 0 on rigid ones, w = w'' = 0 on free
 
 
 class Critical(NamedTuple):
@@ -48,19 +41,19 @@ class Forms(NamedTuple):
 
 
 @lru_cache
-def trial(below: int, above: int, degree: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """(weights, f, f', f'') at Gauss points of z in (-1/2, 1/2); f_n = (1+2z)^below (1-2z)^above T_n(2z)."""
+def trial(zero: int, degree: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """(weights, f, f', f'') at Gauss points of z in (-1/2, 1/2); f_n = (1 - 4z^2)^zero T_n(2z)."""
     points, weights = np.polynomial.legendre.leggauss(degree + 6)
-    edge = Chebyshev([1, 1])**below*Chebyshev([1, -1])**above
+    edge = Chebyshev([1, 1])**zero*Chebyshev([1, -1])**zero
     f = [edge*Chebyshev.basis(n) for n in range(degree)]
     values = [np.array([2**m*g.deriv(m)(points) for g in f]) for m in range(3)]
     return weights/2, values[0], values[1], values[2]
 
 
-def forms(k: float, plates: PlateKind, degree: int) -> Forms:
+def forms(k: float, plates: int, degree: int) -> Forms:
     """All matrices at wavenumber k."""
-    dz, w, w1, w2 = trial(*plates.value, degree)
-    _, theta, theta1, _ = trial(1, 1, degree)
+    dz, w, w1, w2 = trial(plates, degree)
+    _, theta, theta1, _ = trial(1, degree)
     lap = w2 - k**2*w
     return Forms(inertia=(w1*dz)@w1.T + k**2*(w*dz)@w.T,
                  friction=(lap*dz)@lap.T,
@@ -69,7 +62,7 @@ def forms(k: float, plates: PlateKind, degree: int) -> Forms:
                  lift=(w*dz)@theta.T)
 
 
-def growth_rate(*, ra: float, pr: float, k: float, plates: PlateKind = PlateKind.RIGID) -> float:
+def growth_rate(*, ra: float, pr: float, k: float, plates: int = RIGID) -> float:
     """Largest growth rate sigma at wavenumber k (1/H), per free-fall time; negative below onset."""
     positive(ra=ra, pr=pr, k=k)
     nu, kappa = np.sqrt(pr/ra), 1/np.sqrt(pr*ra)
@@ -79,7 +72,7 @@ def growth_rate(*, ra: float, pr: float, k: float, plates: PlateKind = PlateKind
     return float(eigh(rate, block_diag(i.inertia, k**2*i.heat), eigvals_only=True)[-1])
 
 
-def critical_ra(k: float, plates: PlateKind = PlateKind.RIGID, degree: int = DEGREE) -> float:
+def critical_ra(k: float, plates: int = RIGID, degree: int = DEGREE) -> float:
     """Rayleigh number at which wavenumber k (1/H) neither grows nor decays, for any Pr."""
     positive(k=k)
     i = forms(k, plates, degree)
@@ -94,7 +87,7 @@ def onset(friction: np.ndarray, conduction: np.ndarray, lift: np.ndarray) -> flo
 
 
 @lru_cache
-def critical(plates: PlateKind = PlateKind.RIGID) -> Critical:
+def critical(plates: int = RIGID) -> Critical:
     """Onset in the infinite layer: the smallest Ra over all wavenumbers."""
     lowest = minimize_scalar(lambda k: critical_ra(k, plates), bracket=(1.5, 2.5, 4.5),
                              options={"xtol": 1e-10})
@@ -107,8 +100,8 @@ def critical_ra_square() -> float:
     Streamfunction psi, w = d psi/dx, and temperature are products of the trial functions of a layer. psi and
     its normal slope vanish on the walls, so that psi_xx psi_yy integrates to psi_xy^2.
     """
-    dz, *psi = trial(2, 2, IN_SQUARE)
-    _, T, T1, _ = trial(1, 1, IN_SQUARE)
+    dz, *psi = trial(2, IN_SQUARE)
+    _, T, T1, _ = trial(1, IN_SQUARE)
 
     def both(f, g):
         return (f*dz)@g.T

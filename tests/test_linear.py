@@ -3,14 +3,12 @@ import numpy as np
 import pytest
 
 from continuum.exact.vortex import DECAYS, SOUND, Vortex, derivative, solved, velocities
-from continuum.linear import PlateKind, critical, critical_ra, growth_rate
+from continuum.linear import FREE, RIGID, critical, critical_ra, growth_rate
 
 ROUND_OFF = 1e-11       # eigenvalues of forms whose condition is about 1e4
 
 
-@pytest.mark.parametrize("plates, ra, k", [
-    (PlateKind.RIGID, 1707.762, 3.116), (PlateKind.FREE, 657.511, 2.221),
-    (PlateKind.RIGID_FREE, 1100.65, 2.682)])
+@pytest.mark.parametrize("plates, ra, k", [(RIGID, 1707.762, 3.116), (FREE, 657.511, 2.221)])
 def test_onset_of_the_infinite_layer_is_that_of_print(plates, ra, k):
     known = critical(plates)
     assert known.ra == pytest.approx(ra, rel=1e-6) and known.k == pytest.approx(k, abs=5e-4)
@@ -18,10 +16,10 @@ def test_onset_of_the_infinite_layer_is_that_of_print(plates, ra, k):
 
 def test_free_plates_are_exact():
     for k in (0.5, 2.0, 6.0):
-        assert critical_ra(k, PlateKind.FREE) == pytest.approx((np.pi**2 + k**2)**3/k**2, rel=ROUND_OFF)
+        assert critical_ra(k, FREE) == pytest.approx((np.pi**2 + k**2)**3/k**2, rel=ROUND_OFF)
 
 
-@pytest.mark.parametrize("plates", PlateKind)
+@pytest.mark.parametrize("plates", [RIGID, FREE])
 @pytest.mark.parametrize("k", [1.0, 3.117, 7.0])
 def test_critical_ra_converges_with_the_degree(plates, k):
     coarse, fine, finest = (critical_ra(k, plates, degree) for degree in (6, 20, 28))
@@ -36,10 +34,10 @@ def test_free_plates_grow_as_the_exact_dispersion_relation_says(ra, pr):
     k, nu, kappa = 2.0, np.sqrt(pr/ra), 1/np.sqrt(pr*ra)
     a2 = np.pi**2 + k**2
     exact = max(np.roots([1, (nu + kappa)*a2, nu*kappa*a2**2 - k**2/a2]))
-    assert growth_rate(ra=ra, pr=pr, k=k, plates=PlateKind.FREE) == pytest.approx(exact, abs=ROUND_OFF)
+    assert growth_rate(ra=ra, pr=pr, k=k, plates=FREE) == pytest.approx(exact, abs=ROUND_OFF)
 
 
-@pytest.mark.parametrize("plates", PlateKind)
+@pytest.mark.parametrize("plates", [RIGID, FREE])
 @pytest.mark.parametrize("pr", [0.01, 0.71, 1.0, 100.0])
 def test_nothing_grows_or_decays_at_the_critical_ra_whatever_pr(plates, pr):
     k, ra = 2.7, critical_ra(2.7, plates)

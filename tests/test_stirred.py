@@ -7,7 +7,7 @@ import pytest
 from crowd import rates
 
 from continuum.gas.fields import placed
-from continuum.linear import PlateKind, critical_ra
+from continuum.linear import FREE, critical_ra
 from continuum.scene import RayleighBenard
 from studies.build.scenes import Tile
 from studies.build.spam import TODAY, VARIANTS, at_rest, scattered
@@ -66,7 +66,7 @@ def test_slip_of_an_exact_profile():
 
 def test_plates_that_slip_are_rigid_and_free_ones_in_the_limits():
     assert roll(0.0)[0] == pytest.approx(critical_ra(np.pi), rel=1e-6)
-    assert roll(1e9)[0] == pytest.approx(critical_ra(np.pi, PlateKind.FREE), rel=1e-6)
+    assert roll(1e9)[0] == pytest.approx(critical_ra(np.pi, FREE), rel=1e-6)
     assert gain(0.0, 5000.0) == pytest.approx(1) and gain(0.1, 5000.0) > gain(0.02, 5000.0) > 1
 
 

@@ -31,7 +31,7 @@ from scipy.linalg import block_diag, eigh
 from scipy.special import gamma
 
 from continuum.gas.solve import steady_on
-from continuum.linear import DEGREE, PlateKind, forms
+from continuum.linear import DEGREE, FREE, forms
 from continuum.scene import RayleighBenard
 from studies.build.spam import TODAY, VARIANTS, Variant
 from studies.kit.case import Case, Report
@@ -149,7 +149,7 @@ def roll(b: float) -> tuple[float, float]:
 
     Trial functions are those of free plates; slip adds w'^2/b of both plates to the friction.
     """
-    i = forms(ROLL, PlateKind.FREE, DEGREE)
+    i = forms(ROLL, FREE, DEGREE)
     edge = Chebyshev([1, 1])*Chebyshev([1, -1])
     slopes = [2*(edge*Chebyshev.basis(n)).deriv() for n in range(DEGREE)]
     ends = np.array([[slope(z) for slope in slopes] for z in (-1.0, 1.0)])

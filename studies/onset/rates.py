@@ -14,7 +14,7 @@ from continuum.gas import newton
 from continuum.gas.fields import block, initial
 from continuum.gas.ghosts import FluxForm, box_of
 from continuum.gas.loop import rates
-from continuum.linear import DEGREE, PlateKind, critical, critical_ra
+from continuum.linear import DEGREE, RIGID, critical, critical_ra
 from continuum.scene import RayleighBenard, Walls
 from continuum.spectral.branch import branch
 from studies.build.names import scene_columns
@@ -77,12 +77,12 @@ class LinearTheory(Case, table="critical_ra"):
     """Critical Rayleigh numbers of a Boussinesq fluid; err: what four trial functions fewer change."""
 
     def measure(self, report: Report) -> Iterator[Row]:
-        yield self.onset("ra_c infinite layer rigid", critical(PlateKind.RIGID).k, "infinite")
+        yield self.onset("ra_c infinite layer rigid", critical().k, "infinite")
         yield self.onset("ra_c periodic aspect 2", np.pi, "periodic")
 
     def onset(self, quantity: str, k: float, sides: str) -> Row:
         """Row for rolls of wave number k, in 1/height."""
-        value, other = (critical_ra(k, PlateKind.RIGID, degree) for degree in (DEGREE, DEGREE - 4))
+        value, other = (critical_ra(k, RIGID, degree) for degree in (DEGREE, DEGREE - 4))
         at = point("linear", RayleighBenard(ra=value), np.inf)
         at.pop("ra")
         at |= {"eos": "", "transport": "", "dT": 0.0, "sides": sides}       # a Boussinesq fluid has none
