@@ -7,7 +7,8 @@ with P = rho T, C_V = 1, k = eta, in 2D without bulk viscosity. The periodic box
 lengths are in spacings of the points that sample the vortex. Products of two fields are differentiated as
 a grad b + b grad a, which conserves sums.
 """
-from functools import cache
+from collections.abc import Callable
+from functools import cache, partial
 from math import ceil
 from typing import NamedTuple
 
@@ -71,7 +72,8 @@ def solved(mach: float, n: int = ODD) -> Solved:
     v = vortex.velocity(x).T
     energy = rho*(rho + (v**2).sum(axis=0)/2)
     first = np.array([rho, *(rho*v), energy]).reshape(4, n, n)
-    last = advanced(first, vortex, derivative(n))
+    last = advanced(first, partial(rates, eta=vortex.eta, D=derivative(n)), vortex.time,
+                    OF_LIMIT*longest_step(first, vortex.eta))
     into_waves = waves(axis/n, n).conj()/n
     amplitudes = np.einsum("xk,yl,axy->kla", into_waves, into_waves, last[1:3]/last[0]/vortex.speed)
     before, after = (((q[1]**2 + q[2]**2)/q[0]).sum() for q in (first, last))       # kinetic energies
@@ -85,15 +87,17 @@ def derivative(n: int) -> np.ndarray:
     return np.where(far == 0, 0.0, np.pi/n*(-1.0)**far/np.sin(np.pi*away/n))
 
 
-def advanced(state: np.ndarray, vortex: Vortex, D: np.ndarray) -> np.ndarray:
-    """State (4, n, n) of rho, p, e per volume at the vortex's time of the end."""
-    steps = ceil(vortex.time/(OF_LIMIT*longest_step(state, vortex.eta)))
-    dt = vortex.time/steps
+def advanced(state: np.ndarray, slopes: Callable, time: float, longest: float,
+             smooth: np.ndarray | None = None) -> np.ndarray:
+    """State (4, n, n) after a time, by RK4; each step ends with `smooth` along both axes."""
+    steps = ceil(time/longest)
+    dt = time/steps
     for _ in range(steps):
-        a = rates(state, vortex.eta, D)
-        b = rates(state + dt/2*a, vortex.eta, D)
-        c = rates(state + dt/2*b, vortex.eta, D)
-        state = state + dt/6*(a + 2*b + 2*c + rates(state + dt*c, vortex.eta, D))
+        a = slopes(state)
+        b = slopes(state + dt/2*a)
+        c = slopes(state + dt/2*b)
+        state = state + dt/6*(a + 2*b + 2*c + slopes(state + dt*c))
+        state = state if smooth is None else smooth@state@smooth.T
     return state
 
 
@@ -140,6 +144,10 @@ def waves(place: np.ndarray, n: int) -> np.ndarray:
 
 def velocities(gas: Solved, place: np.ndarray) -> np.ndarray:
     """Velocities (p, 2) at the end over the initial speed, at places (p, 2) in wavelengths."""
-    n = len(gas.amplitudes)
-    x, y = (waves(axis, n) for axis in place.T)
-    return np.einsum("pk,pl,kla->pa", x, y, gas.amplitudes, optimize=True).real
+    return at(gas.amplitudes, place).T
+
+
+def at(amplitudes: np.ndarray, place: np.ndarray) -> np.ndarray:
+    """Fields (f, p) of Fourier amplitudes (n, n, f) at places (p, 2) in wavelengths."""
+    x, y = (waves(axis, len(amplitudes)) for axis in place.T)
+    return np.einsum("pk,pl,kla->ap", x, y, amplitudes, optimize=True).real
