@@ -22,7 +22,8 @@ from continuum.scene import positive
 
 DEGREE = 20     # trial functions for w and for theta each; from 14 on Ra_c has 12 figures
 IN_SQUARE = 14  # trial functions in each direction: Ra_c has 8 figures, with 8 functions 6
-RIGID, FREE = 2, 1      # plates: order of the zero of w on both; w = w' = 0 on rigid ones, w = w'' = 0 on free
+#: plates, by the order of the zero of w on both: w = w' = 0, or w = w'' = 0
+RIGID, FREE = 2, 1
 
 
 class Critical(NamedTuple):
