@@ -10,7 +10,7 @@ import numpy as np
 from scipy.integrate import odeint
 
 from continuum.fluid import ConstEta, IdealGas, check_eos, check_state, energy, pressure
-from continuum.scene import positive
+from continuum.scene import Heated, positive
 from continuum.sides import HeatPath, Periodic, Plate, Sides, Sliding, Torus, adiabatic, check_sides, warm
 
 HEIGHTS, PASSES = 401, 8    # for the density at rest; for an ideal gas the second pass is exact
@@ -38,7 +38,7 @@ def spelled(kind: Any) -> Any:
 
 @spelled
 @dataclass(frozen=True, kw_only=True)
-class Domain:
+class Domain(Heated):
     """A box of gas of mean density 1 between four sides, centred at the origin.
 
     L : height in spacings, the units of length. aspect : width/height. left, right, bottom, top :
@@ -100,26 +100,13 @@ class Domain:
 
     @property
     def T_hot(self) -> float:
-        """Temperature of the lower plate of a layer, else of the hottest side."""
+        """Temperature of the lower plate of a layer, else of the hottest side, or 1."""
         return self.four.bottom.T if self.layer else (self.temperatures or [1.0])[-1]
 
     @property
     def T_cold(self) -> float:
-        """Temperature of the upper plate of a layer, else of the coldest side."""
+        """Temperature of the upper plate of a layer, else of the coldest side, or 1."""
         return self.four.top.T if self.layer else (self.temperatures or [1.0])[0]
-
-    @property
-    def T_mean(self) -> float:
-        """(T_hot + T_cold)/2; 1 if no side has a temperature."""
-        return (self.T_hot + self.T_cold)/2
-
-    @property
-    def dT(self) -> float:
-        return self.T_hot - self.T_cold
-
-    @property
-    def width(self) -> float:
-        return self.aspect*self.L
 
     @property
     def law(self) -> ConstEta:

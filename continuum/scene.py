@@ -38,8 +38,24 @@ def columns_of(aspect: float, rows: int) -> int:
     return columns
 
 
+class Heated:
+    """What follows from the sizes and the temperatures of a scene."""
+
+    @property
+    def width(self: Any) -> float:
+        return self.aspect*self.L
+
+    @property
+    def dT(self: Any) -> float:
+        return self.T_hot - self.T_cold
+
+    @property
+    def T_mean(self: Any) -> float:
+        return (self.T_hot + self.T_cold)/2
+
+
 @dataclass(frozen=True, kw_only=True)
-class RayleighBenard:
+class RayleighBenard(Heated):
     """A layer of fluid heated from below.
 
     ra : Rayleigh number g alpha L^3 dT/(nu kappa) at density 1 and mean temperature, kappa = k/(rho C_V).
@@ -83,18 +99,6 @@ class RayleighBenard:
             raise ValueError(
                 f"{self.transport.__name__} gives eta, k = {given} at rho = 1, T = {self.T_mean}, but Ra = "
                 f"{self.ra} needs {self.nu, self.k}: choose temperatures around that of the law")
-
-    @property
-    def width(self) -> float:
-        return self.aspect*self.L
-
-    @property
-    def dT(self) -> float:
-        return self.T_hot - self.T_cold
-
-    @property
-    def T_mean(self) -> float:
-        return (self.T_hot + self.T_cold)/2
 
     @property
     def g(self) -> float:
