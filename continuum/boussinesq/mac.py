@@ -140,7 +140,4 @@ def cross(x, y) -> sparse.csr_array:
     return sparse.kron(x, y).tocsr()
 
 
-@lru_cache(maxsize=16)
-def mac(box: Box, rows: int, columns: int) -> Mac:
-    """Operators, assembled once per box and grid."""
-    return Mac(box, rows, columns)
+mac = lru_cache(maxsize=16)(Mac)        # assembled once per box and grid

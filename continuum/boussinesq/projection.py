@@ -25,23 +25,13 @@ class Modes(NamedTuple):
     eigenvalues: np.ndarray
 
 
-def modes(axis: Axis, along: int, end: End) -> Modes:
-    """Modes of a quantity in cells."""
-    turns = np.arange(axis.cells + 1)/axis.cells
-    if end is End.MIRROR:
-        return Modes(partial(fft.dct, axis=along), partial(fft.idct, axis=along), bend(axis.h, turns[:-1]))
-    return Modes(partial(fft.dst, axis=along), partial(fft.idst, axis=along), bend(axis.h, turns[1:]))
-
-
-def face_modes(axis: Axis, along: int) -> Modes:
-    """Modes of a quantity on faces that vanishes in the walls."""
-    return Modes(partial(fft.dst, type=1, axis=along), partial(fft.idst, type=1, axis=along),
-                 bend(axis.h, np.arange(1, axis.cells)/axis.cells))
-
-
-def bend(h: float, half_turns: np.ndarray) -> np.ndarray:
-    """Eigenvalue of the second difference for a wave with phase pi*half_turns from cell to cell."""
-    return -(2/h*np.sin(np.pi*half_turns/2))**2
+def modes(axis: Axis, along: int, end: End | None = None) -> Modes:
+    """Modes of a quantity in cells, or without `end` of one on faces that vanishes in the walls."""
+    first, last = {End.MIRROR: (0, -1), End.WALL: (1, None), None: (1, -1)}[end]
+    half_turns = (np.arange(axis.cells + 1)/axis.cells)[first:last]     # from cell to cell
+    ways = (fft.dct, fft.idct) if end is End.MIRROR else (fft.dst, fft.idst)
+    forward, backward = (partial(way, type=2 if end else 1, axis=along) for way in ways)
+    return Modes(forward, backward, -(2/axis.h*np.sin(np.pi*half_turns/2))**2)
 
 
 class Solver:
@@ -62,8 +52,8 @@ class Solver:
 def solvers(mac: Mac) -> tuple[Solver, Solver, Solver, Solver]:
     """Solvers for u, v, T and the pressure."""
     x, y, sides, plates = mac.x, mac.y, mac.box.sides, mac.box.plates
-    return (Solver(face_modes(x, 0), modes(y, 1, plates.flow)),
-            Solver(modes(x, 0, sides.flow), face_modes(y, 1)),
+    return (Solver(modes(x, 0), modes(y, 1, plates.flow)),
+            Solver(modes(x, 0, sides.flow), modes(y, 1)),
             Solver(modes(x, 0, sides.heat), modes(y, 1, plates.heat)),
             Solver(modes(x, 0, End.MIRROR), modes(y, 1, End.MIRROR)))
 
