@@ -91,28 +91,23 @@ class March:
         before = self.S.copy()
         self.advance(steps)
         self.steps += steps
-        if faults(self.scene, self.S).any():
+        if first_fault(self.scene, self.S):
             self.S[:], self.steps = before, self.steps - steps
             self._find()
 
     def _find(self) -> None:
-        while not faults(self.scene, self.S).any():
+        while not (fault := first_fault(self.scene, self.S)):
             self.advance(1)
             self.steps += 1
-        raise DivergedError(f"diverged in step {self.steps} (t = {self.t:.6g}): "
-                            f"{first_fault(self.scene, self.S)}; take more rows or dt below {self.dt:.4g}")
-
-
-def faults(scene, S: np.ndarray) -> np.ndarray:
-    """True at nodes whose state is not finite or not valid."""
-    rho, e = grid.mean(S[RHO]), S[E, 1:, 1:]
-    with np.errstate(all="ignore"):
-        return ~(np.isfinite(S[:, 1:, 1:]).all(axis=0) & fluid.valid(scene.eos, rho, e))
+        raise DivergedError(f"diverged in step {self.steps} (t = {self.t:.6g}): {fault}; take more rows or "
+                            f"dt below {self.dt:.4g}")
 
 
 def first_fault(scene, S: np.ndarray) -> str:
-    """Message on the first invalid node: its place and its state; empty if all are valid."""
-    bad = faults(scene, S)
+    """Message on the first node whose state is not finite or not valid: its place and state; else empty."""
+    with np.errstate(all="ignore"):
+        valid = fluid.valid(scene.eos, grid.mean(S[RHO]), S[E, 1:, 1:])
+        bad = ~(np.isfinite(S[:, 1:, 1:]).all(axis=0) & valid)
     if not bad.any():
         return ""
     j, i = np.argwhere(bad)[0]
