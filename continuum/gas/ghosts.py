@@ -133,15 +133,6 @@ def in_loop(sides):
                    for side in sides))
 
 
-class Line(NamedTuple):
-    """Nodes on a side: component of velocity along the side, node before the first, direction inwards."""
-    along: int
-    j: int
-    i: int
-    up: int
-    right: int
-
-
 @jit
 def node_temperature(eos, S, j, i):
     return temperature(eos, node_density(S[RHO], j, i), S[E, j, i])
@@ -160,11 +151,12 @@ def side_temperature(side, eos, law, box, S, j, i, up, right):
 
 @jit
 def fill_side(side, eos, law, box, S, line, first, last):
-    """Set velocity and energy of the nodes first..last - 1 of a side."""
-    up, right = line.up, line.right
+    """Set velocity and energy of the nodes first..last - 1 of a side. line : component of velocity along the
+    side, node (j, i) before the first, direction (up, right) inwards."""
+    along, before, beside, up, right = line
     for n in range(first, last):
-        j, i = line.j + n*abs(right), line.i + n*abs(up)
-        v = S[line.along]
+        j, i = before + n*abs(right), beside + n*abs(up)
+        v = S[along]
         v[j, i] = side.v + side.slip*(4*v[j + up, i + right] - v[j + 2*up, i + 2*right])/3
         T = side_temperature(side, eos, law, box, S, j, i, up, right)
         S[E, j, i] = energy(eos, node_density(S[RHO], j, i), T)
@@ -207,11 +199,11 @@ def _(sides, eos, law, form, box, S):
     if box.lowest == 2:
         extrapolate(form, S[RHO])
     if box.first == 2:
-        fill_side(left, eos, law, box, S, Line(VY, 0, 1, 0, 1), box.lowest, ny + 1)
-        fill_side(right, eos, law, box, S, Line(VY, 0, nx + 1, 0, -1), box.lowest, ny + 1)
+        fill_side(left, eos, law, box, S, (VY, 0, 1, 0, 1), box.lowest, ny + 1)
+        fill_side(right, eos, law, box, S, (VY, 0, nx + 1, 0, -1), box.lowest, ny + 1)
     if box.lowest == 2:
-        fill_side(bottom, eos, law, box, S, Line(VX, 1, 0, 1, 0), box.first, nx + 1)
-        fill_side(top, eos, law, box, S, Line(VX, ny + 1, 0, -1, 0), box.first, nx + 1)
+        fill_side(bottom, eos, law, box, S, (VX, 1, 0, 1, 0), box.first, nx + 1)
+        fill_side(top, eos, law, box, S, (VX, ny + 1, 0, -1, 0), box.first, nx + 1)
     if box.first == 2 and box.lowest == 2:
         fill_corner(left, bottom, eos, law, box, S, 1, 1, 1, 1)
         fill_corner(right, bottom, eos, law, box, S, 1, nx + 1, 1, -1)

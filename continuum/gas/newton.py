@@ -33,11 +33,10 @@ STILL = 1e-10   # share of v in |disturbance|^2 below which the disturbance is a
 
 
 class SteadyState(NamedTuple):
-    """A steady state: fields, kinetic energy per mass, rolls, largest change in each Newton step."""
+    """A steady state: fields, kinetic energy per mass, rolls."""
     fields: NodeFields
     ke: float
     rolls: int
-    changes: tuple[float, ...]
 
 
 class Discrete:
@@ -118,12 +117,6 @@ class Discrete:
         return sparse.csc_array((np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))),
                                 self.pattern.shape)
 
-    def fields(self, q: np.ndarray) -> tuple[NodeFields, np.ndarray]:
-        """Fields of q, and its block with ghosts."""
-        S = self.state(q)
-        fill(*self.laws, S)
-        return unblock(self.scene, S), S
-
 
 def near(n: int) -> sparse.coo_array:
     """Matrix (n, n): 1 where two of n rows or columns are within REACH of each other."""
@@ -155,9 +148,11 @@ def steady(scene, rows: int, start: NodeFields | None = None) -> SteadyState:
     def relaxed(q: np.ndarray) -> np.ndarray:
         rates = equations.rates(q)
         return step(equations, q, rates, RELAX*unit/max(largest(rates)*unit, WITHIN**2))
-    q, changes = newton(equations.unknowns(block(start)), relaxed, f"Ra = {scene.ra:g} on {rows} rows")
-    fields, S = equations.fields(q)
-    return SteadyState(fields, kinetic_energy(S), count_rolls(fields), changes)
+    q, _ = newton(equations.unknowns(block(start)), relaxed, f"Ra = {scene.ra:g} on {rows} rows")
+    S = equations.state(q)
+    fill(*equations.laws, S)
+    fields = unblock(scene, S)
+    return SteadyState(fields, kinetic_energy(S), count_rolls(fields))
 
 
 def step(equations: Discrete, q: np.ndarray, rates: np.ndarray, dt: float) -> np.ndarray:
