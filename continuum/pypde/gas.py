@@ -14,7 +14,7 @@ import numpy as np
 from pde import CartesianGrid, FieldCollection, PDEBase, ScalarField
 
 from continuum.fluid import energy, sound_speed, valid
-from continuum.pypde.gas_loop import RHO, VX, VY, E, GasLoop, Mesh, coefficients, fill, rate
+from continuum.pypde.gas_loop import RHO, VX, VY, E, Mesh, coefficients, fill, rate
 from continuum.scene import ROLL_ENERGY, Periodic, Torus, columns_of
 from continuum.steady import RK4_DECAY, RK4_SOUND
 
@@ -37,8 +37,7 @@ class Gas(PDEBase):
         self.scene, self.rows, self.h = scene, rows, scene.L/rows
         sides = [(-scene.width/2, scene.width/2), (-scene.L/2, scene.L/2)]
         self.grid = CartesianGrid(sides, (columns, rows), periodic=(True, torus))
-        box = Mesh(self.h, scene.g, scene.T_hot, scene.T_cold, torus)
-        self.loop = GasLoop(scene.eos, scene.law, box)
+        self.loop = scene.eos, scene.law, Mesh(self.h, scene.g, scene.T_hot, scene.T_cold, torus)
 
     def evolution_rate(self, state: Any, t: float = 0) -> Any:
         """Rates of change, as py-pde's own steppers call them."""
@@ -61,10 +60,9 @@ class Gas(PDEBase):
         return tuple(low + self.h*(np.arange(n + 2) - 0.5 + up) for (low, _), n, up in zip(
             self.grid.axes_bounds, self.grid.shape, HALF_UP[field]))
 
-    def mesh(self, field: int) -> tuple[np.ndarray, np.ndarray]:
+    def mesh(self, field: int) -> tuple[np.ndarray, ...]:
         """x and y of a field's values, each (columns, rows)."""
-        x, y = self.points(field)
-        return np.repeat(x[1:-1, None], self.rows, axis=1), np.repeat(y[None, 1:-1], len(x) - 2, axis=0)
+        return tuple(np.meshgrid(*(axis[1:-1] for axis in self.points(field)), indexing="ij"))
 
     def rolls(self, ke: float = ROLL_ENERGY) -> np.ndarray:
         """Initial rolls of kinetic energy `ke` per mass with linear temperature    [KHP95, Sec. VI]"""
@@ -101,23 +99,14 @@ class Gas(PDEBase):
     def measure(self, data: np.ndarray) -> tuple[float, float, float]:
         """K, Nusselt number of the lower plate, mean density."""
         rho, u, v = self.padded(data)[:3]
-        twice = np.sum(mx(rho)[1:, 1:-1]*u[1:-1, 1:-1]**2 + my(rho)[1:-1, 1:]*v[1:-1, 1:-1]**2)
+        right, up = (rho[1:] + rho[:-1])/2, (rho[:, 1:] + rho[:, :-1])/2
+        twice = np.sum(right[1:, 1:-1]*u[1:-1, 1:-1]**2 + up[1:-1, 1:]*v[1:-1, 1:-1]**2)
         return float(twice/2/np.sum(data[RHO])), self.nusselt(data)[0], float(np.mean(data[RHO]))
 
     def nusselt(self, data: np.ndarray) -> tuple[float, float]:
         """Nusselt numbers of the lower and the upper plate, from the scheme's own heat flux. One-sided
         gradients of higher order would be worse, because of viscous heating near the plate."""
         *_, T, _, k = self.padded(data)
-        down = (my(k)*(np.diff(T)/self.h))[1:-1].mean(axis=0)
+        down = ((k[:, 1:] + k[:, :-1])/2*(np.diff(T)/self.h))[1:-1].mean(axis=0)
         unit = self.scene.k*self.scene.dT/self.scene.L
         return -float(down[0])/unit, -float(down[-1])/unit
-
-
-def mx(f):
-    """Means of neighbours in x, midway between them."""
-    return 0.5*(f[1:] + f[:-1])
-
-
-def my(f):
-    """Means of neighbours in y, midway between them."""
-    return 0.5*(f[:, 1:] + f[:, :-1])

@@ -4,7 +4,7 @@
 columns, j rows. rho, e, T, coefficients and normal stresses are in cell (i, j), v_x on its right and v_y on
 its upper side, the shear stress at its upper right corner.
 """
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -22,13 +22,6 @@ class Mesh(NamedTuple):
     T_hot: float
     T_cold: float
     torus: bool         # periodic in y too, without plates
-
-
-class GasLoop(NamedTuple):
-    """Arguments of `rate`: equation of state, transport law, box."""
-    eos: Any
-    law: Any
-    box: Mesh
 
 
 @jit
@@ -155,7 +148,7 @@ def conduct(box, S, i, j):
 
 @jit
 def rate(loop, data):
-    """d/dt of the state as a new array, (fields, columns, rows)."""
+    """d/dt of the state as a new array, (fields, columns, rows); loop : equation of state, law, `Mesh`."""
     (eos, law, box), (nx, ny) = loop, data.shape[1:]
     S, out = np.empty((10, nx + 2, ny + 2)), np.empty_like(data)
     fill(box, data, S)

@@ -20,14 +20,11 @@ from continuum.jit import jit
 from continuum.pypde.gas_loop import VY, rate
 from continuum.steady import STILL, GridRun, Steady, of_samples, steps_between
 
-Until = Any             # Steady or Time of continuum.steady
-Progress = Callable[[float], None]
-
 
 class Watch(TrackerBase):
     """Tracker: records t, K, Nu, mass, checks the state, reports progress, ends the run by its rule."""
 
-    def __init__(self, equation: Any, until: Until, interval: float, dt: float, progress: Progress | None):
+    def __init__(self, equation: Any, until: Any, interval: float, dt: float, progress: Callable | None):
         super().__init__(interrupts=ConstantInterrupts(interval))
         self.equation, self.until, self.dt, self.progress = equation, until, dt, progress
         self.samples: list[tuple[float, float, float, float]] = []
@@ -100,8 +97,8 @@ class PdeSolution(GridRun):
         return sum(self.nusselt)/2
 
 
-def solve(equation: Any, *, until: Until = Steady(), start: PdeSolution | np.ndarray | None = None,  # noqa: B008
-          dt: float | None = None, progress: Progress | None = None) -> PdeSolution:
+def solve(equation: Any, *, until: Any = Steady(), start: PdeSolution | np.ndarray | None = None,  # noqa: B008
+          dt: float | None = None, progress: Callable[[float], None] | None = None) -> PdeSolution:
     """Solve an equation, an object of `Gas`.
 
     until : Steady(rtol=...) or Time(t_end) of `continuum.steady`.
@@ -144,8 +141,6 @@ def onto(equation: Any, start: PdeSolution) -> np.ndarray:
     if not np.allclose(here, box):
         raise ValueError(f"start is in a box {here}, the equation in {box}: start from rolls or from the "
                          "same box")
-    parts = []
-    for n, f in enumerate(old.padded(start.state)[:len(start.state)]):
-        (a, b), (x, y) = old.points(n), equation.points(n)
-        parts.append(RectBivariateSpline(a, b, f)(x[1:-1], y[1:-1]))
+    parts = [RectBivariateSpline(*old.points(n), f)(*(axis[1:-1] for axis in equation.points(n)))
+             for n, f in enumerate(old.padded(start.state)[:len(start.state)])]
     return equation.repaired(np.array(parts))
