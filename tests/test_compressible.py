@@ -19,7 +19,7 @@ from continuum.fluid import (
 )
 from continuum.gas.fields import NodeFields, block, initial, interpolate, onto
 from continuum.gas.ghosts import RHO, EdgeHeat, FluxForm, PaperForm
-from continuum.gas.solve import DivergedError, March, limits, run, steady_on
+from continuum.gas.solve import DivergedError, March, run, steady_on, step_limit
 from continuum.scene import RayleighBenard, Walls
 from continuum.steady import Time
 
@@ -115,7 +115,7 @@ def test_sound_swings_at_the_frequency_of_the_grid(eos):
 
 
 def test_grids_starts_and_steps_that_cannot_be_are_refused():
-    limit = limits(GAS, filled(block(initial(GAS, 16)))).both
+    limit = step_limit(GAS, filled(block(initial(GAS, 16))))
     cold = initial(GAS, 16)
     cold.at.e[4, 4] = -1
     for given, words in (({"rows": 6}, "at least 8, got 6"), ({"dt": 0.0}, "positive"),
@@ -139,7 +139,7 @@ def test_the_limit_of_the_step_is_safe_and_near(eta):
     still, noisy = initial(scene, 8, ke=0.0), rough(scene, 8)
     cells = 1 + 1e-3*(noisy.cells - 1)
     S = block(replace(still, at=still.at._replace(e=1 + 1e-3*(noisy.at.e - 1)), cells=cells))
-    limit = limits(scene, filled(S)).both
+    limit = step_limit(scene, filled(S))
     march = March(scene, S.copy(), FluxForm(), limit)
     march.go(1000)
     assert np.abs(march.S[RHO, 1:-1, 1:-1] - 1).max() < 2*np.abs(cells - 1).max()

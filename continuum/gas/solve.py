@@ -8,7 +8,7 @@ Second order in space, fourth in time, fixed step.
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -27,7 +27,6 @@ class DivergedError(ArithmeticError):
 @dataclass(frozen=True, kw_only=True)
 class Solution(GridRun):
     """Result of a run; in a steady state the three numbers of `nusselt` agree to the error of the grid."""
-    scene: Any
     rows: int
     fields: NodeFields
     nusselt: Nusselt
@@ -39,23 +38,15 @@ class Solution(GridRun):
         return self.nusselt.volume if self.fields.periodic else plates
 
 
-class Limits(NamedTuple):
-    """Largest stable time steps: for sound and advection alone, for diffusion alone, for both together."""
-    sound: float
-    diffusion: float
-
-    @property
-    def both(self) -> float:
-        return 1/(1/self.sound + 1/self.diffusion)
-
-
-def limits(scene, S: np.ndarray) -> Limits:
-    """From the fastest wave and the largest diffusivity; compact differences have wave numbers up to 2/h."""
+def step_limit(scene, S: np.ndarray) -> float:
+    """Largest stable time step, from the fastest wave and the largest diffusivity; compact differences have
+    wave numbers up to 2/h."""
     h, rho, (vx, vy, e) = scene.L/(S.shape[1] - 2), grid.mean(S[RHO]), (S[f, 1:, 1:] for f in (VX, VY, E))
     spread = fluid.diffusivity(scene.eos, scene.law, rho, e)
     fast = 2*sound_of_grid(scene.eos, rho, e) + np.abs(vx) + np.abs(vy)
     with np.errstate(divide="ignore"):      # no diffusion, no limit
-        return Limits(RK4_SOUND*h/float(np.max(fast)), float(RK4_DECAY*h**2/(4*np.max(spread))))
+        sound, diffusion = RK4_SOUND*h/float(np.max(fast)), float(RK4_DECAY*h**2/(4*np.max(spread)))
+    return float(1/(1/sound + 1/diffusion))
 
 
 def sound_of_grid(eos, rho, e):
@@ -140,7 +131,7 @@ def run(scene, rows: int, *, until: Any = Steady(), start: NodeFields | None = N
     fluid.check_state(scene.eos, fields.at.rho, fields.at.e)
     S = grid.block(fields)
     interval = until.interval(scene)
-    count = steps_between(interval, limits(scene, S).both, dt)
+    count = steps_between(interval, step_limit(scene, S), dt)
     march = March(scene, S, continuity, interval/count)
     samples = [sample(scene, S, 0.0)]
     while not until.done([s[1] for s in samples]):
@@ -150,8 +141,8 @@ def run(scene, rows: int, *, until: Any = Steady(), start: NodeFields | None = N
             progress(until.fraction([s[1] for s in samples]))
     fields = grid.unblock(scene, S)
     return Solution(
-        scene=scene, rows=rows, fields=fields, nusselt=grid.nusselt(fields), rolls=grid.count_rolls(fields),
-        dt=march.dt, steps=march.steps, cpu_s=time.process_time() - march.start, compile_s=march.compile_s,
+        rows=rows, fields=fields, nusselt=grid.nusselt(fields), rolls=grid.count_rolls(fields), dt=march.dt,
+        steps=march.steps, cpu_s=time.process_time() - march.start, compile_s=march.compile_s,
         **of_samples(until, samples))
 
 

@@ -11,8 +11,7 @@ from typing import Any
 
 import numpy as np
 from pde.solvers.base import SolverBase
-from pde.trackers import ConstantInterrupts, FinishedSimulation
-from pde.trackers.base import TrackerBase
+from pde.trackers import CallbackTracker, ConstantInterrupts, FinishedSimulation
 from scipy.interpolate import RectBivariateSpline
 
 from continuum.gas.solve import DivergedError
@@ -21,28 +20,18 @@ from continuum.pypde.gas_loop import VY, rate
 from continuum.steady import STILL, GridRun, Steady, of_samples, steps_between
 
 
-class Watch(TrackerBase):
-    """Tracker: records t, K, Nu, mass, checks the state, reports progress, ends the run by its rule."""
-
-    def __init__(self, equation: Any, until: Any, interval: float, dt: float, progress: Callable | None):
-        super().__init__(interrupts=ConstantInterrupts(interval))
-        self.equation, self.until, self.dt, self.progress = equation, until, dt, progress
-        self.samples: list[tuple[float, float, float, float]] = []
-
-    @property
-    def ke(self) -> list[float]:
-        return [s[1] for s in self.samples]
-
-    def handle(self, field: Any, t: float) -> None:
-        """Called by py-pde at every sample."""
-        if trouble := self.equation.trouble(field.data):
-            raise DivergedError(f"diverged before t = {t:.6g} (step {round(t/self.dt)}, dt = {self.dt:.4g}): "
-                                f"{trouble}; take more rows (thinner cells) or a smaller dt")
-        self.samples.append((t, *self.equation.measure(field.data)))
-        if self.progress:
-            self.progress(self.until.fraction(self.ke))
-        if self.until.done(self.ke):
-            raise FinishedSimulation("rule to stop is met")
+def watch(state: Any, t: float, equation: Any, until: Any, dt: float, samples: list,
+          progress: Callable | None) -> None:
+    """Check a state, append its t, K, Nu, mass to the samples, report progress, end the run by its rule."""
+    if trouble := equation.trouble(state.data):
+        raise DivergedError(f"diverged before t = {t:.6g} (step {round(t/dt)}, dt = {dt:.4g}): {trouble}; "
+                            "take more rows (thinner cells) or a smaller dt")
+    samples.append((t, *equation.measure(state.data)))
+    ke = [sample[1] for sample in samples]
+    if progress:
+        progress(until.fraction(ke))
+    if until.done(ke):
+        raise FinishedSimulation("rule to stop is met")
 
 
 class StageLoop(SolverBase):
@@ -111,9 +100,11 @@ def solve(equation: Any, *, until: Any = Steady(), start: PdeSolution | np.ndarr
         equation.rolls() if start is None else start.copy())
     interval = until.interval(equation.scene)
     step = interval/steps_between(interval, equation.step_limit(), dt)
-    watch = Watch(equation, until, interval, step, progress)
+    samples: list[tuple[float, float, float, float]] = []
+    tracker = CallbackTracker(lambda state, t: watch(state, t, equation, until, step, samples, progress),
+                              ConstantInterrupts(interval))
     try:
-        state, info = equation.solve(equation.state(data), t_range=inf, dt=step, tracker=[watch],
+        state, info = equation.solve(equation.state(data), t_range=inf, dt=step, tracker=[tracker],
                                      solver=StageLoop, backend="numpy", ret_info=True)
     finally:
         # py-pde treats Ctrl-C as a regular end
@@ -123,9 +114,9 @@ def solve(equation: Any, *, until: Any = Steady(), start: PdeSolution | np.ndarr
     along = state.data[VY, :, equation.rows//2 - 1]
     return PdeSolution(
         equation=equation, state=state.data.copy(), nusselt=equation.nusselt(state.data),
-        rolls=0 if watch.ke[-1] < STILL else count_rolls(along), dt=solver["dt"], steps=solver["steps"],
+        rolls=0 if samples[-1][1] < STILL else count_rolls(along), dt=solver["dt"], steps=solver["steps"],
         cpu_s=seconds["solver"] + seconds["tracker"], compile_s=seconds["compilation"],
-        **of_samples(watch.until, watch.samples))
+        **of_samples(until, samples))
 
 
 def count_rolls(v: np.ndarray) -> int:

@@ -7,7 +7,7 @@ import numpy as np
 from continuum.fluid import Fields
 from continuum.gas.fields import NodeFields, at_nodes, block, initial, placed, unblock
 from continuum.gas.ghosts import FIELDS, VX, EdgeHeat, FluxForm, PaperForm
-from continuum.gas.solve import March, first_fault, limits
+from continuum.gas.solve import March, first_fault, step_limit
 from continuum.scene import RayleighBenard
 from continuum.steady import SAFETY
 from particles.limits import limit_of
@@ -90,7 +90,7 @@ class Gridded:
 
 @limit_of.register
 def _(method: Gridded, start: np.ndarray) -> float:
-    return float(limits(method.scene, method.block(start)).both)
+    return step_limit(method.scene, method.block(start))
 
 
 class GridForm(NamedTuple):

@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from continuum.gas.fields import block, initial
-from continuum.gas.solve import limits
+from continuum.gas.solve import step_limit
 from continuum.steady import SAFETY
 from particles.fields import kinetic_energy
 from studies.build.fixed import OF_LIMIT, Scheme
@@ -70,7 +70,7 @@ def on_grid(rows: int, ra: float, seed: int, step: float) -> Attempt:
     """Run the compressible grid at one Ra."""
     scene = layer(ra)
     start = initial(scene, rows, START_ENERGY)
-    dt = step*SAFETY*limits(scene, block(start)).both
+    dt = step*SAFETY*step_limit(scene, block(start))
     start = replace(start, cells=start.cells*ripple(seed, *start.cells.shape))
     done, reached = between_plates(start, falls(scene, TIME), no_report, dt)
     return Attempt(done.series.ke[late(done.series.ke)].mean() if done else np.nan, reached)
