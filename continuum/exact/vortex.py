@@ -17,8 +17,7 @@ import numpy as np
 RE = 100.0          # the vortex turns several times as it decays: pressure and convection matter
 SOUND = np.sqrt(2)  # speed of sound of the gas at T = 1 in 2D
 DECAYS = 1.0        # 2 nu k^2 t at the end, where velocities are a factor e smaller
-#: grid points along each axis: odd, so that the shortest wave has a derivative; 25 are too few
-ODD, COARSER = 33, 29
+ODD = 33            # grid points along each axis, odd: the shortest wave has a derivative; 25 are too few
 OF_LIMIT = 0.5      # of the longest stable step
 
 
