@@ -149,13 +149,12 @@ def _from_other(start: Callable, by: float, x: np.ndarray) -> Start:
 def at_rest(eos: Any, T: float, g: float, L: float, y: np.ndarray) -> np.ndarray:
     """Hydrostatic density at heights y of a gas of uniform temperature T, with mean 1 over -L/2..L/2."""
     heights, lowest = np.linspace(-L/2, L/2, HEIGHTS), 1.0
+
+    def slope(rho: Any, _: float) -> Any:
+        """-g rho over dP/drho at constant temperature, by central differences."""
+        low, high = (pressure(eos, rho*s, energy(eos, rho*s, T)) for s in (1 - 1e-6, 1 + 1e-6))
+        return -g*rho/((high - low)/(2e-6*rho))
     for _ in range(PASSES):
-        rho = odeint(lambda rho, _: -g*rho/stiffness(eos, rho, T), lowest, heights, rtol=1e-10)[:, 0]
+        rho = odeint(slope, lowest, heights, rtol=1e-10)[:, 0]
         lowest /= float(np.trapezoid(rho, heights))/L
     return np.interp(y, heights, rho)
-
-
-def stiffness(eos: Any, rho: Any, T: float) -> Any:
-    """dP/drho at constant temperature, by central differences."""
-    low, high = (pressure(eos, rho*s, energy(eos, rho*s, T)) for s in (1 - 1e-6, 1 + 1e-6))
-    return (high - low)/(2e-6*rho)
