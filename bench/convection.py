@@ -6,6 +6,7 @@ from functools import cache
 
 import numpy as np
 
+from continuum.fluid import energy
 from continuum.scene import RayleighBenard
 from particles.run import Plan, run
 from particles.smooth.spam import Spam
@@ -36,7 +37,7 @@ def lattice(box: tuple[float, float]) -> np.ndarray:
     x, y = (q.ravel() for q in np.meshgrid(np.arange(width) + 0.5 - width/2,
                                            np.arange(height) + 0.5 - height/2))
     x, y = x + rng.uniform(-0.1, 0.1, x.size), y + rng.uniform(-0.1, 0.1, x.size)
-    return np.array([x, y, *scene.flow(x, y, 0.0096), scene.e(y)])
+    return np.array([x, y, *scene.flow(x, y, 0.0096), energy(scene.eos, 1.0, scene.T(y))])
 
 
 @cache

@@ -145,10 +145,6 @@ class RayleighBenard(Heated):
         """Conduction profile, linear in y: with density 1 and constant k the exact state at rest."""
         return self.T_mean - self.dT*np.asarray(y)/self.L
 
-    def e(self, y):
-        """Energy per mass of the state at rest."""
-        return fluid.energy(self.eos, 1.0, self.T(y))
-
     def flow(self, x, y, ke: float, rolls: int | None = None):
         """Velocities (v_x, v_y) of initial rolls with kinetic energy `ke` per mass (density 1). `rolls` is
         their number along x; by default rolls are about as wide as high, and come in pairs if periodic."""

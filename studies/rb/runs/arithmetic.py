@@ -86,7 +86,7 @@ def imbalance(eos: Any) -> float:
     """Range of P(y) + rho g y over its mean, for the conduction profile at density 1."""
     scene = RayleighBenard(ra=1e4, eos=eos)
     y = np.linspace(-0.5, 0.5, 101)*scene.L
-    total = pressure(eos, 1.0, scene.e(y)) + scene.g*y
+    total = pressure(eos, 1.0, energy(eos, 1.0, scene.T(y))) + scene.g*y
     return float(np.ptp(total)/total.mean())
 
 
