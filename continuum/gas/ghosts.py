@@ -97,9 +97,7 @@ def _(sides, eos, law, form, box, S):
     S[E, :, 0] = S[E, :, S.shape[2] - 2]
 
 
-@fill.of(Torus)
-def _(sides, eos, law, form, box, S):
-    repeat(box, S)
+fill.of(Torus)(lambda sides, eos, law, form, box, S: repeat(box, S))
 
 
 @fill.of(Walls)

@@ -24,8 +24,6 @@ from continuum.steady import WITHIN, largest, newton
 
 REACH = 2       # rows and columns over which a rate depends on nodes and cells
 STEP = 1e-5     # of the differences: their error is about STEP^2 + round-off/STEP
-# the implicit steps before Newton's are RELAX/(largest rate of change) free-fall times long
-RELAX = 1.0
 # K of the initial rolls in free-fall units: KHP95's, cold and stronger, may lead to other steady states
 WEAK = 5e-4
 NEAR = 0.3
@@ -140,14 +138,15 @@ def warm_rolls(scene, rows: int, ke: float) -> NodeFields:
 def steady(scene, rows: int, start: NodeFields | None = None) -> SteadyState:
     """Steady state by Newton's method from `start`, on any grid and at any Ra; by default from weak rolls.
 
-    Below onset it is at rest. Raises NewtonFailed: no convergence.
+    Implicit steps of the inverse of the largest rate of change lengthen and become Newton's. Below onset it
+    is at rest. Raises NewtonFailed: no convergence.
     """
     equations, unit = Discrete(scene, rows), scene.L/scene.free_fall
     start = warm_rolls(scene, rows, WEAK*scene.free_fall**2) if start is None else onto(scene, rows, start)
 
     def relaxed(q: np.ndarray) -> np.ndarray:
         rates = equations.rates(q)
-        return step(equations, q, rates, RELAX*unit/max(largest(rates)*unit, WITHIN**2))
+        return step(equations, q, rates, unit/max(largest(rates)*unit, WITHIN**2))
     q, _ = newton(equations.unknowns(block(start)), relaxed, f"Ra = {scene.ra:g} on {rows} rows")
     S = equations.state(q)
     fill(*equations.laws, S)
