@@ -27,10 +27,8 @@ os.environ.setdefault("NUMBA_CACHE_DIR", str(ROOT / ".numba_cache" / source_hash
 
 import llvmlite.binding  # noqa: E402  (numba reads the cache folder when it is imported)
 import numba  # noqa: E402
-from numba.core import caching  # noqa: E402
+from numba.core import caching, codegen  # noqa: E402
 from numba.extending import overload, register_jitable  # noqa: E402
-
-import continuum.linking  # noqa: E402, F401  (before anything is compiled)
 
 # another module may have imported numba before
 numba.config.CACHE_DIR = os.environ["NUMBA_CACHE_DIR"]  # type: ignore[attr-defined]
@@ -47,6 +45,29 @@ def _load_index_if_known(file: Any) -> dict:
 
 
 setattr(caching.IndexDataCacheFile, "_load_index", _load_index_if_known)  # noqa: B010  (mypy allows it so)
+
+_finalize = codegen.CPUCodeLibrary._finalize_final_module
+
+
+def _finalize_with_own_copies(library: Any) -> None:
+    """numba's last step, to machine code, with copies of callees as internal symbols; callers get them as
+    they were. Results are those of a filled cache, independent of what was compiled before.
+
+    numba copies the optimised code of a function into each of its callers and optimises it once more there. A
+    copy that is not inlined keeps the old name. A caller loaded from disk alone calls its own copy. In a
+    process that compiled both, LLVM would call the copy that came first, whose sums may have another order.
+    """
+    linkage = llvmlite.binding.Linkage
+    copies = [function for function in library._final_module.functions
+              if not function.is_declaration and function.linkage == linkage.linkonce_odr]
+    for function in copies:
+        function.linkage = "internal"
+    _finalize(library)
+    for function in copies:
+        function.linkage = "linkonce_odr"
+
+
+setattr(codegen.CPUCodeLibrary, "_finalize_final_module", _finalize_with_own_copies)  # noqa: B010
 
 # not all of fastmath: NaN must stay NaN, since divergence is checked for
 FASTMATH = {"contract", "reassoc", "arcp", "nsz"}
