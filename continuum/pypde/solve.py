@@ -132,6 +132,8 @@ def onto(equation: Any, start: PdeSolution) -> np.ndarray:
     if not np.allclose(here, box):
         raise ValueError(f"start is in a box {here}, the equation in {box}: start from rolls or from the "
                          "same box")
-    parts = [RectBivariateSpline(*old.points(n), f)(*(axis[1:-1] for axis in equation.points(n)))
-             for n, f in enumerate(old.padded(start.state)[:len(start.state)])]
+    parts = []
+    for n, f in enumerate(old.padded(start.state)[:len(start.state)]):
+        (a, b), (x, y) = old.points(n), equation.points(n)
+        parts.append(RectBivariateSpline(a, b, f)(x[1:-1], y[1:-1]))
     return equation.repaired(np.array(parts))
