@@ -10,8 +10,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from continuum.fluid import energy, pressure
-from continuum.jit import OPTIONS, formula, overload
-from particles.pairs import pair_term, rate, sweep, zero
+from continuum.jit import formula, overload
+from particles.pairs import add, pair_term, rate, sweep, zero
 from particles.threads import Threads
 
 
@@ -89,22 +89,11 @@ def onto(before: tuple, terms: tuple, a: Any, b: Any, ab: Any) -> Any:
     """Add the rates of all terms to a sum."""
 
 
-def plus(one: tuple, other: tuple) -> Any:
-    """Add tuples element by element; adding zeros costs nothing."""
-
-
 @overload(onto)
 def _(before, terms, a, b, ab):
     if len(terms) == 0:
         return lambda before, terms, a, b, ab: before
-    return lambda before, terms, a, b, ab: onto(plus(before, rate(terms[0], a, b, ab)), terms[1:], a, b, ab)
-
-
-@overload(plus, jit_options=OPTIONS)  # type: ignore[arg-type]
-def _(one, other):
-    if len(one) == 1:
-        return lambda one, other: (one[0] + other[0],)
-    return lambda one, other: (one[0] + other[0],) + plus(one[1:], other[1:])
+    return lambda before, terms, a, b, ab: onto(add(before, rate(terms[0], a, b, ab)), terms[1:], a, b, ab)
 
 
 zero.of(Listing)(lambda term: zero(term.terms[0]))
