@@ -11,7 +11,7 @@ from continuum.fluid import conductivity, diffusivity, energy, pressure, tempera
 from continuum.jit import formula, jit, jit_records
 from particles.integral.exchange import Listing
 from particles.neighbours import u64
-from particles.pairs import Block, rate, sweep, zero
+from particles.pairs import Block, pair_term, sweep
 from particles.threads import shared
 
 formula(diffusivity)        # makes it callable from compiled code
@@ -68,10 +68,7 @@ class Bench(NamedTuple):
     left: np.ndarray
 
 
-zero.of(Crossing)(lambda term: (0.0, 0.0, 0.0, 0.0))
-
-
-@rate.of(Crossing)
+@pair_term(Crossing, 4)
 def _(term, a, b, ab):
     sx, sy = ab.sx, ab.sy
     mass = 0.5*(sx*(a.rx + b.rx) + sy*(a.ry + b.ry))*(a.rho + b.rho)
