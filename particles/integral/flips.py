@@ -49,11 +49,6 @@ def put(rings, i, e, j):
     rings.edges.taken[i] += u32(1)
 
 
-@formula
-def is_full(rings, i):
-    return rings.edges.taken[i] == rings.room[i]
-
-
 @jit
 def lengthen(rings, i):
     """Move the full ring of i behind all others, with twice its capacity; False: memory is exhausted."""
@@ -114,7 +109,7 @@ def flips(at, state, eos, rings, crossed, changed, stack):
             if not (doubled(x, y, size, per, i, l, k) > 0 and doubled(x, y, size, per, j, k, l) > 0):
                 continue        # not convex: another flip comes first
             for full in (k, l):
-                if is_full(rings, full) and not lengthen(rings, full):
+                if rings.edges.taken[full] == rings.room[full] and not lengthen(rings, full):
                     return count, full
             remap(x0, y0, size, per, eos, exchanged, i, j, k, l, old, new)
             drop(rings, i, entry)

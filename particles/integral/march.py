@@ -8,10 +8,6 @@ from particles.integral.rings import geometry
 from particles.neighbours import u64
 from particles.threads import shared
 
-#: results of `march`: all steps are done; a triangle has turned over; a ring is full
-DONE, TURNED, FULL = 0, 1, 2
-
-
 edges_of = shared(geometry)
 #: Runge-Kutta of four Euler stages of half a step, third order, strong-stability preserving: NEW is the share
 #: of the stage, the rest is the start; limits on the imaginary and the real axis    [Kraaijevanger 1991]
@@ -25,7 +21,8 @@ MOST = 64
 
 @jit
 def march(threads, steps, dt, fluid, rings, held, y, bench):
-    """Advance a state (9, n) in place: (result, steps done, the point at fault or -1).
+    """Advance a state (9, n) in place: (steps done, point with a full ring, point with a turned triangle),
+    -1 if there is no such point.
 
     threads : `Threads` if this is called uncompiled, as `march.py_func`. held : `Held` points.
     """
@@ -38,10 +35,8 @@ def march(threads, steps, dt, fluid, rings, held, y, bench):
             halfway(threads, n, h, y, bench.middle)
             edges_of(threads, n, bench.middle, rings, bench.V, bench.pull, bench.spread, bench.crossed)
             full, turned = mend(fluid.eos, y, rings, bench)
-            if full >= 0:
-                return FULL, step, full
-            if turned >= 0 and left[1] == MOST:
-                return TURNED, step, turned
+            if full >= 0 or (turned >= 0 and left[1] == MOST):
+                return step, full, turned
             if turned >= 0:
                 left[:] *= 2
                 continue
@@ -54,7 +49,7 @@ def march(threads, steps, dt, fluid, rings, held, y, bench):
             for count in range(4*parts):
                 s = count % 4
                 if s == 0:
-                    keep(threads, n, y, bench.before)
+                    bench.before[:] = y[4:9]
                 if count > 0:
                     read(threads, n, y, fluid.eos, fluid.law, bench.points)
                 if count > 0 and s < 2:
@@ -64,7 +59,7 @@ def march(threads, steps, dt, fluid, rings, held, y, bench):
                 hold(fluid.eos, held, y)
             move(threads, n, h, shift, bench, y)
             left[0] -= 1
-    return DONE, steps, -1
+    return steps, -1, -1
 
 
 @shared
@@ -89,14 +84,6 @@ def mend(eos, y, rings, bench):
         if not bench.V[i] > 0:
             return -1, i
     return -1, -1
-
-
-@shared
-@jit
-def keep(first, last, y, before):
-    for row in range(len(before)):
-        for i in range(u64(first), u64(last)):
-            before[row, i] = y[row + 4, i]
 
 
 @jit

@@ -16,7 +16,7 @@ from particles.integral.bodies import Held
 from particles.integral.carried import EXCHANGED, ROWS, Bench, Crossing, Fluid, Point, hold, receive
 from particles.integral.exchange import Conduction, Friction, Listing
 from particles.integral.fixed import check_number
-from particles.integral.march import FULL, IMAGINARY, REAL, TURNED, march
+from particles.integral.march import IMAGINARY, REAL, march
 from particles.integral.rings import Rings, geometry, in_order, remade, rows_of, table_of
 from particles.limits import limit_of
 from particles.lists import unphysical
@@ -43,7 +43,6 @@ class Carry(Leaps):
     """Integrator: places half a step later, triangulation and edges there, stages of exchange, new places."""
 
     def __init__(self, shape: tuple[int, ...], threads: Threads):
-        super().__init__(shape, threads)
         self.most = max(1, AT_ONCE//shape[1])
 
     def step(self, sums: "RingSums", state: np.ndarray, dt: float, steps: int = 1) -> None:
@@ -84,14 +83,14 @@ class RingSums(Sums):
         """Advance by so many steps. Raises FloatingPointError: a triangle has turned over."""
         done = 0
         while done < steps:
-            how, more, point = self.go(steps - done, dt, state)
+            more, full, turned = self.go(steps - done, dt, state)
             done += more
-            if how == TURNED:
-                x, y = state[:2, point]
+            if turned >= 0:
+                x, y = state[:2, turned]
                 raise FloatingPointError(f"{done} steps later a triangle of the point at ({x:.4g}, {y:.4g}) "
                                          "has turned over: it is stretched faster than points shift; take "
                                          f"more rows, or a shift above {self.fluid.shift:g}")
-            if how == FULL:
+            if full >= 0:
                 self.rings = remade(self.rings)
         self.flips += int(self.bench.flipped[0])
         self.bench.flipped[0] = 0
