@@ -76,40 +76,38 @@ class Agitated(Sums):
     """Rates without noise, and kicks of one step."""
 
     def __init__(self, method: Thermal, threads: Threads):
-        # `dih` gives the flow without noise
-        self.method, self.threads, self.dih = method, threads, method
-        edges = method.edges
-        d, n = edges.d, edges.n
-        # normal numbers R, r, heat of W_A and of W_B
-        self.of_points = np.empty((n, 2*(d*d + 1 + d))) if method.share < 1 else None
-        self.of_edges = np.empty((len(edges.i), 2*(d + 2))) if method.share > 0 else None   # R, r, heat
+        self.method, self.threads, edges, d = method, threads, method.edges, method.edges.d
+        # normal numbers of W_A and of W_B: R, r, heat
+        self.of_points = np.empty((edges.n, 2, d*d + 1 + d)) if method.share < 1 else None
+        self.of_edges = np.empty((len(edges.i), 2, d + 2)) if method.share > 0 else None
         if method.share > 0:
             self.k = conductances(edges)
             if len(np.unique(np.stack([edges.i, edges.j]), axis=1).T) < len(edges.i):
                 raise ValueError("two edges join the same points by different images: take more points")
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
-        self.dih.rates(state, out)
+        self.method.rates(state, out)
 
     def make_ready(self, now: Any, dt: float) -> None:
-        seed, edges = self.method.seed, self.dih.edges
+        seed, edges = self.method.seed, self.method.edges
         if self.of_points is not None:
-            self.threads(fill_normals, edges.n, seed, now.step, self.of_points)
+            self.threads(fill_normals, edges.n, seed, now.step, self.of_points.reshape(edges.n, -1))
         if self.of_edges is not None:
-            self.threads(fill_pairs, len(edges.i), seed, now.step, edges.i, edges.j, self.of_edges)
+            self.threads(fill_pairs, len(edges.i), seed, now.step, edges.i, edges.j,
+                         self.of_edges.reshape(len(edges.i), -1))
 
     def kicks(self, state: np.ndarray, beta: float, dt: float, out: np.ndarray) -> None:
         """Change of a state in dt by the noise W_A + beta W_B, with the amplitudes of that state."""
-        flow, share, parts = self.dih.flow(state), self.method.share, []
-        if self.of_points is not None:
-            parts.append(self._at_points(flow, halves(self.of_points, beta)*np.sqrt((1 - share)*dt)))
-        if self.of_edges is not None:
-            parts.append(self._along_edges(flow, halves(self.of_edges, beta)*np.sqrt(share*dt)))
-        out[:] = gained(self.dih.edges, *parts)/self.dih.edges.V
+        flow, share, parts = self.method.flow(state), self.method.share, []
+        for drawn, part, fluxes in ((self.of_points, 1 - share, self._at_points),
+                                    (self.of_edges, share, self._along_edges)):
+            if drawn is not None:
+                parts.append(fluxes(flow, (drawn[:, 0] + beta*drawn[:, 1])*np.sqrt(part*dt)))
+        out[:] = gained(self.method.edges, *parts)/self.method.edges.V
 
     def _at_points(self, flow: Flow, dW: np.ndarray) -> EdgeFluxes:
         """Random stresses and currents: -S.(s_i + s_j)/2, -S.(s_j.v_i + s_i.v_j)/2 + S.(q_i + q_j)/2."""
-        edges, (eta, zeta, kappa), k = self.dih.edges, self.dih.coefficients(flow), self.method.k
+        edges, (eta, zeta, kappa), k = self.method.edges, self.method.coefficients(flow), self.method.k
         i, j, d, half = edges.i, edges.j, edges.d, edges.S/2
         s = np.sqrt(2*k*flow.T*eta/edges.V)[:, None]*(dW[:, :d*d]@traceless(d).T)
         s += (np.sqrt(2*k*flow.T*zeta/edges.V)*dW[:, d*d])[:, None]*np.eye(d).ravel()
@@ -121,8 +119,8 @@ class Agitated(Sums):
 
     def _along_edges(self, flow: Flow, dW: np.ndarray) -> EdgeFluxes:
         """Exchange by random forces along edges, their work, and random heat."""
-        edges, d = self.dih.edges, self.dih.edges.d
-        a, b, all_of = take(flow, edges.i), take(flow, edges.j), self.dih.coefficients(flow)
+        edges, d = self.method.edges, self.method.edges.d
+        a, b, all_of = take(flow, edges.i), take(flow, edges.j), self.method.coefficients(flow)
         check_bulk(all_of.eta, all_of.zeta, d)
         (eta, zeta, kappa), k = means(all_of, edges.i, edges.j), self.method.k*self.k
         B, A = frictions(eta, zeta, d)
@@ -132,12 +130,6 @@ class Agitated(Sums):
         force += (np.sqrt(2*k*T*np.maximum(A, 0))*dW[:, d])[:, None]*e
         heat = np.sqrt(2*k*a.T*b.T*kappa)*dW[:, d + 1]
         return EdgeFluxes(np.zeros(len(heat)), -force, -(force*(a.v + b.v)).sum(axis=1)/2 - heat)
-
-
-def halves(normals: np.ndarray, beta: float) -> np.ndarray:
-    """W_A + beta W_B."""
-    m = normals.shape[1]//2
-    return normals[:, :m] + beta*normals[:, m:]
 
 
 @jit

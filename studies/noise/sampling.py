@@ -45,7 +45,7 @@ class Nonlinear(Case, table="nonlinear", same="share k"):
         start = method.state(one, np.zeros((edges.n, 2)), one)
         dt = 0.6*limit_of(method, start)
         steps = int(np.ceil(self.time/dt/5))*5
-        means = {"squares": lambda sums, state: V@squares(sums.dih.flow(state))}
+        means = {"squares": lambda sums, state: V@squares(sums.method.flow(state))}
         plan, state, powers = Plan(dt=dt, steps=steps, every=5, means=means), start, []
         for number in range(BATCHES + 1):
             batch = run(replace(method, seed=1000 + number), state, plan)
