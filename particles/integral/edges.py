@@ -87,18 +87,6 @@ class Edges:
         """Largest frequency of sound over its speed, largest rate of diffusion over the diffusivity."""
         return _fastest(self.V, self.G, self.laplacian)
 
-    def div(self, F: np.ndarray) -> np.ndarray:
-        """Divergence of F (n, d)."""
-        return sum(D@f for D, f in zip(self.D, F.T, strict=True))/self.V
-
-    def grad(self, f: np.ndarray) -> np.ndarray:
-        """Gradient (n, d) of f (n,)."""
-        return np.stack([G@f for G in self.G], axis=1)/self.V[:, None]
-
-    def lap(self, f: np.ndarray) -> np.ndarray:
-        """Laplacian of f (n,)."""
-        return self.laplacian@f/self.V
-
 
 def combined(i: np.ndarray, j: np.ndarray, S: np.ndarray, k: np.ndarray, apart: np.ndarray, V: np.ndarray,
              a: float) -> Edges:

@@ -70,7 +70,7 @@ def of_edges(points: Points, weight: Any, make: Callable) -> Operators:
     def slopes(matrices: list, f: Field) -> np.ndarray:
         return np.array([matrix@f(x) for matrix in matrices])/edges.V
     return Operators(x, lambda f: slopes(edges.D, f), lambda f: slopes(edges.G, f),
-                     lambda f: edges.lap(f(x)), edges.linear.transpose(2, 1, 0))
+                     lambda f: edges.laplacian@f(x)/edges.V, edges.linear.transpose(2, 1, 0))
 
 
 #: makers of edges; closed faces: closed, exact, nearest to a weight's
