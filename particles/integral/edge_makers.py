@@ -10,15 +10,16 @@ from scipy.sparse.csgraph import connected_components
 from scipy.sparse.linalg import MatrixRankWarning, spsolve
 
 from particles.integral.edges import Edges
+from particles.integral.fluctuating import incidence
 from particles.integral.interpolants import W, check, check_ordering, reach, sphere
 from particles.integral.points import Points, pairs
 from particles.integral.triangulation import delaunay
 
 
-def from_weights(points: Points, weight: Any, w: np.ndarray, near: tuple[np.ndarray, ...]) -> Edges:
-    """Edges of RR98's bracket sum_j w_ij V_j e_ij.(...) for pairs `near` with scaled weights w (pairs,)."""
-    i, j, apart, r = near
-    both = 2*w*points.V[i]*points.V[j]/r
+def from_weights(points: Points, weight: Any, scale: Callable[[np.ndarray], Any] = lambda r: 1.0) -> Edges:
+    """Edges of RR98's bracket sum_j w_ij V_j e_ij.(...), w = scale(r) W(r)."""
+    i, j, apart, r = pairs(points, reach(weight))
+    both = 2*(scale(r)*W(weight, r))*points.V[i]*points.V[j]/r
     return Edges(i=i, j=j, S=both[:, None]*apart, k=both, apart=apart, V=points.V)
 
 
@@ -36,8 +37,7 @@ def plain(points: Points, weight: Any) -> Edges:
 
 def _plain(points: Points, weight: Any) -> Edges:
     check(weight, points.d)
-    near = pairs(points, reach(weight))
-    return from_weights(points, weight, W(weight, near[3]), near)
+    return from_weights(points, weight)
 
 
 def printed(points: Points, weight: Any) -> Edges:
@@ -47,10 +47,8 @@ def printed(points: Points, weight: Any) -> Edges:
     linear fields by (|S_d|/d) M_d (r0/a)^(d-1).
     """
     check(weight, points.d)
-    d, near = points.d, pairs(points, reach(weight))
-    r = near[3]
-    return judged(from_weights(points, weight, sphere(d)*r**(d - 1)*points.a**(1 - d)*W(weight, r), near),
-                  points, weight)
+    d, a = points.d, points.a
+    return judged(from_weights(points, weight, lambda r: sphere(d)*r**(d - 1)*a**(1 - d)), points, weight)
 
 
 def renormalised(points: Points, weight: Any) -> Edges:
@@ -127,16 +125,8 @@ def exact(points: Points, weight: Any) -> Edges:
 
 def _constraints(edges: Edges) -> sparse.csr_array:
     """Matrix B ((1 + d) n, E) of B S = (sum_j S_ij, 1/2 sum_j S_ij (x_j - x_i)), for one direction."""
-    e, n = np.arange(len(edges.i)), edges.n
-    rows, columns = [edges.i, edges.j], [e, e]
-    values = [np.ones(len(e)), -np.ones(len(e))]
-    for beta in range(edges.d):
-        for end in (edges.i, edges.j):
-            rows.append((1 + beta)*n + end)
-            columns.append(e)
-            values.append(edges.apart[:, beta]/2)
-    return sparse.csr_array((np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))),
-                            shape=((1 + edges.d)*n, len(e)))
+    across = incidence(edges)
+    return sparse.vstack([across, *(abs(across).multiply(q/2) for q in edges.apart.T)], format="csr")
 
 
 #: makers by name; each makes edges from points and a weight, which `delaunay` ignores

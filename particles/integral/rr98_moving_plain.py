@@ -21,8 +21,8 @@ from particles.fields import Fields, from_densities
 from particles.integral.dih import Dih, EdgeFluxes, Flow, Pairwise, densities, gained, take
 from particles.integral.edge_makers import from_weights, judged, plain, renormalised
 from particles.integral.edges import Edges
-from particles.integral.interpolants import W, check, reach
-from particles.integral.points import Points, of_positions, pairs, wrapped
+from particles.integral.interpolants import check
+from particles.integral.points import Points, of_positions, wrapped
 
 
 class Crossed(NamedTuple):
@@ -100,8 +100,7 @@ class Motion:
                                      "both must be finite and volumes positive; take a shorter step")
         box = np.asarray(self.box, float)
         points = Points(x=wrapped(x, box), box=box, V=V)
-        near = pairs(points, reach(self.weight))
-        edges = from_weights(points, self.weight, self.scale*W(self.weight, near[3]), near)
+        edges = from_weights(points, self.weight, lambda r: self.scale)
         return Dih(edges=edges, eos=self.eos, law=self.law, transport=self.transport)
 
     def owned(self, V: np.ndarray) -> np.ndarray:
