@@ -10,12 +10,12 @@ from typing import Any
 
 import numpy as np
 
-from continuum.fluid import ConstEta, IdealGas, constant_viscosity
+from continuum.fluid import ConstEta, IdealGas, conductivity, constant_viscosity, viscosity
 from continuum.jit import jit
+from particles.integral import layer_ideal
 from particles.integral.edges import Beyond, Edges, fastest
 from particles.integral.exchange import PRINTED, Conduction
 from particles.integral.fixed import FixedSums, OnPoints, OwnPressure, opened, stored
-from particles.integral.layer_ideal import IdealSums
 from particles.integral.transposed_stress import MENDED
 from particles.lists import Ghosts
 from particles.threads import Threads
@@ -29,11 +29,11 @@ class LayerSums(FixedSums):
         n, beyond, T_plates = len(method.x), method.beyond, np.array(method.T_plates)
         ghosts, ghost = np.unique(np.stack([beyond.parent, beyond.plate]), axis=1, return_inverse=True)
         # parent and plate of each image; image of each edge that leads to one
-        (self.parent, self.plate), self.image = ghosts, ghost.ravel()
+        (self.parent, plate), self.image = ghosts, ghost.ravel()
         self.rise = np.zeros(len(self.parent))      # height of a parent above its image
         self.rise[self.image] = method.x[beyond.parent, 1] - (method.x[beyond.i, 1] + beyond.apart[:, 1])
         edges = stored(method.edges, beyond, n + self.image)
-        images = Ghosts(self.parent, -np.ones(len(self.parent)), T_plates[self.plate])
+        images = Ghosts(self.parent, -np.ones(len(self.parent)), T_plates[plate])
         self.open = opened(edges)
         super().__init__(method, threads, edges, images, (0.0, -method.g),
                          OwnPressure(method.eos, self.open, n, threads))
@@ -52,14 +52,22 @@ class LayerSums(FixedSums):
 
 
 class LinearSums(LayerSums):
-    """`LayerSums` of fluids whose brackets are products of a point's fields and sums over its neighbours."""
+    """`LayerSums` of an ideal gas with constant coefficients, see `layer_ideal`."""
 
     def __init__(self, method: "Layer", threads: Threads):
         super().__init__(method, threads)
-        self.linear = IdealSums(self)
+        beyond, law, image, size = method.beyond, method.law, self.image, len(self.points)
+        self.given, self.lack = np.zeros(size, layer_ideal.Given), np.zeros(size, layer_ideal.Lack)
+        self.edges, self.per_V, self.twice_T = tuple(self.at.edges), 1/self.at.V, 2*self.at.images.plate_T
+        self.gas = (float(method.eos.cv), viscosity(law, 1.0, 1.0), conductivity(law, 1.0, 1.0))
+        self.beyond = (beyond.i, self.n + image, *(beyond.S.T/2).copy(), method.g*self.rise[image])
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
-        self.linear.rates(state, out)
+        n, given, lack, edges, per_V, gas = self.n, self.given, self.lack, self.edges, self.per_V, self.gas
+        self.threads(layer_ideal.give, len(given), state, self.parent, self.twice_T, gas, given)
+        self.threads(layer_ideal.exchange, n, given, edges, self.open, per_V, gas, self.method.g, lack, out)
+        layer_ideal.plates(self.beyond, self.parent, given, per_V, lack, out)
+        self.threads(layer_ideal.heat, n, lack, edges, self.open, per_V, out)
 
 
 @jit
@@ -69,10 +77,6 @@ def _images(parent, plate_T, rise, g, points, n):
         b.rho, b.vx, b.vy, b.T, b.eps = a.rho, a.vx, -a.vy, a.T, a.eps
         b.ux, b.uy, b.Td, b.eta, b.k = -a.ux, -a.uy, 2*plate_T[m] - a.Td, a.eta, a.k
         b.hydro = a.rho*g*rise[m]
-
-
-#: faster forms of the sums, by types of equation of state and transport law, and by transport terms
-FORMS: dict[tuple, type[LayerSums]] = {(IdealGas, ConstEta, MENDED): LinearSums}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -99,8 +103,8 @@ class Layer(OnPoints):
 
     @property
     def sums(self) -> type[LayerSums]:
-        known = type(self.eos), type(self.law), self.transport
-        return self.form or FORMS.get(known, LayerSums)
+        linear = (type(self.eos), type(self.law), self.transport) == (IdealGas, ConstEta, MENDED)
+        return self.form or (LinearSums if linear else LayerSums)
 
 
 class Driving(LayerSums):

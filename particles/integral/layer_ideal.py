@@ -1,4 +1,4 @@
-"""The sums of `layer` for an ideal gas with constant coefficients, transport along edges, corrected heating.
+"""Loops of `layer` for an ideal gas with constant coefficients, transport along edges, corrected heating.
 
 There P_ij = rho_i T_j: brackets of Eqs 34-36 and 51 consist of a point's own fields and linear sums over
 its neighbours, such as sum_j S.(rho_i v_j + rho_j v_i) = rho_i sum_j S.v_j + v_i.sum_j S rho_j. Vector
@@ -6,11 +6,11 @@ instructions compute several of these at a time. Sums take differences, sum_j S 
 conservation of edges. Results equal `layer` to round-off. Arrays are passed as plain tuples (a NamedTuple
 costs a microsecond each); rows are summed in blocks whose sums stay in the fastest cache.
 """
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from continuum.fluid import IdealGas, conductivity, temperature, viscosity
+from continuum.fluid import IdealGas, temperature
 from continuum.jit import jit, jit_records
 from particles.neighbours import u64
 from particles.pairs import Block, Stored, pair_term, sweep
@@ -43,29 +43,8 @@ def _(term, a, b, ab):
     return (ab.sx*(b.Fx - a.Fx) + ab.sy*(b.Fy - a.Fy),)
 
 
-class IdealSums:
-    """Rates of a `Layer` with an ideal gas and constant coefficients."""
-
-    def __init__(self, layer: Any):
-        self.layer, method, edges = layer, layer.method, layer.at.edges
-        self.given, self.lack = np.zeros(len(layer.points), Given), np.zeros(len(layer.points), Lack)
-        self.edges, self.per_V, beyond, image = tuple(edges), 1/method.edges.V, method.beyond, layer.image
-        self.gas = (float(method.eos.cv), viscosity(method.law, 1.0, 1.0), conductivity(method.law, 1.0, 1.0))
-        self.twice_T = 2*layer.at.images.plate_T
-        self.beyond = (beyond.i, layer.n + image, *(beyond.S.T/2).copy(), method.g*layer.rise[image])
-
-    def rates(self, state: np.ndarray, out: np.ndarray) -> None:
-        layer, given, lack = self.layer, self.given, self.lack
-        threads, n, g, open = layer.threads, layer.n, layer.method.g, layer.open
-        threads(_give, len(given), state, layer.parent, self.twice_T, self.gas, given)
-        threads(_exchange, n, given, self.edges, open, self.per_V, self.gas, g, lack, out)
-        if len(given) > n:
-            _plates(self.beyond, layer.parent, given, self.per_V, lack, out)
-        threads(_heat, n, lack, self.edges, open, self.per_V, out)
-
-
 @jit_records
-def _give(first, last, state, parent, twice_T, gas, given):
+def give(first, last, state, parent, twice_T, gas, given):
     """Fields of points, then of images: those of the parent but with -my, -v, and 2 T_w - T in w."""
     n, kappa = u64(state.shape[1]), gas[2]
     for i in range(u64(first), min(u64(last), n)):
@@ -89,7 +68,7 @@ def _read(state, i, gas, a):
 
 
 @jit_records
-def _exchange(first, last, given, edges, open, per_V, gas, g, lack, out):
+def exchange(first, last, given, edges, open, per_V, gas, g, lack, out):
     """Rates without the correction of heating, and its F."""
     pairs, sums = Stored(*edges), np.empty((ROWS, 20))
     for begin in range(u64(first), u64(last), u64(ROWS)):
@@ -116,7 +95,7 @@ def _products(i, a, s, open, f, eta, g, lack, out):
 
 
 @jit
-def _plates(beyond, parent, given, per_V, lack, out):
+def plates(beyond, parent, given, per_V, lack, out):
     """Correct images for convection and pressure: slip, hydrostatics; F is even along a plate, odd across."""
     rows, image, sx, sy, weight = beyond
     for k in range(len(rows)):
@@ -134,7 +113,7 @@ def _plates(beyond, parent, given, per_V, lack, out):
 
 
 @jit_records
-def _heat(first, last, lack, edges, open, per_V, out):
+def heat(first, last, lack, edges, open, per_V, out):
     pairs, lost = Stored(*edges), np.empty((ROWS, 1))
     for begin in range(u64(first), u64(last), u64(ROWS)):
         end = min(begin + u64(ROWS), u64(last))
