@@ -109,7 +109,7 @@ class FaceSums(Listed):
         method, around, ghosts, points, n = self.method, self.around, self.maker.ghosts, self.points, self.n
         static, g = method.ingredients.static, method.g
         self.threads(face_terms.read, n, state, method.eos, method.law, static*g, self.shift,
-                     self.maker.count, points)
+                     around.rho, points)
         self.P0 = static*inner(state[7], points["P"][:n])/float(state[7].sum())
         points["P"][:n] -= self.P0
         face_terms.read_images(n, *ghosts, points)

@@ -37,14 +37,13 @@ def _(term, a, b, ab):
 class FaceMaker:
     """Makes faces between points, closed by at most `iterations` steps, to the relative residual `within`.
 
-    faces : those made last. count (n,) : number density of points. pull (n, 2) : sum_j V_j F x_ij, towards
-    denser points. ghosts : those of the neighbour lists.
+    faces : those made last. pull (n, 2) : sum_j V_j F x_ij, towards denser points. ghosts : of the lists.
     """
 
     def __init__(self, around: PairLists, iterations: int, within: float):
         self.around, self.n, self.threads = around, around.n, around.threads
         self.most, self.within = iterations, within
-        self.pull, self.count = np.zeros((self.n, 2)), np.zeros(self.n)
+        self.pull = np.zeros((self.n, 2))
         self.lists_made, self._store = -1, np.empty((5, 0))
 
     def make(self, state: np.ndarray, V: np.ndarray, solution: np.ndarray) -> None:
@@ -59,7 +58,6 @@ class FaceMaker:
         self.faces = Faces(pairs.first, pairs.taken, pairs.near, *self._store)
         self.metric["V"][:n] = V
         self.ghosts.fill(self.metric, ("V",))
-        self.count = around.rho[:n].copy()
         self.threads(_metric, n, pairs, around.x, around.y, self.metric, self.pull)
         self.ghosts.fill(self.metric, ("xx", "yy", "s"), ("xy",))
         self.threads(_open_faces, n, pairs, around.x, around.y, self.metric, self.faces)

@@ -61,10 +61,10 @@ def lattice(counts: tuple[int, ...], a: float = 1.0) -> Points:
     return of_positions(x, np.array(counts)*a)
 
 
-def jittered(counts: tuple[int, ...], size: float, seed: int, a: float = 1.0) -> Points:
-    """Lattice with every coordinate shifted by up to `size` spacings."""
-    at = lattice(counts, a)
-    x = at.x + np.random.default_rng(seed).uniform(-size*a, size*a, at.x.shape)
+def jittered(counts: tuple[int, ...], size: float, seed: int) -> Points:
+    """Unit lattice with every coordinate shifted by up to `size`."""
+    at = lattice(counts)
+    x = at.x + np.random.default_rng(seed).uniform(-size, size, at.x.shape)
     return of_positions(wrapped(x, at.box), at.box)
 
 
@@ -83,8 +83,6 @@ def random(counts: tuple[int, ...], apart: float, seed: int) -> Points:
 
 def _thinned(x: np.ndarray, box: np.ndarray, apart: float) -> np.ndarray:
     """Points without those nearer than `apart` to an earlier one that stays."""
-    if not apart > 0:
-        return x
     stays = np.ones(len(x), bool)
     tree = cKDTree(x + box/2, boxsize=box)
     for i, j in sorted(map(sorted, tree.query_pairs(apart))):
