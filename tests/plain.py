@@ -18,7 +18,7 @@ from particles.smooth.spam import Spam
 from particles.smooth.sums import Direct, Nested
 from particles.terms import ArithmeticGradients
 from particles.walls.fixed import FixedRows
-from particles.walls.mirror import Mirror, Odd, Own
+from particles.walls.mirror import Mirror, Odd
 from particles.walls.periodic import Shift
 
 # --- points: particles, fixed particles, images -----------------------------------------------------------
@@ -104,7 +104,7 @@ def points(method: Spam, state: np.ndarray) -> Points:
             rho[i] = rho[image.of]
             v[i], T[i] = motion(image, x[i], v[image.of], T[image.of])
             P[i] = P[image.of]
-            if isinstance(image.wall, Mirror) and isinstance(image.wall.pressure, Own):
+            if isinstance(image.wall, Mirror) and image.wall.own_pressure:
                 P[i] = pressure(method.eos, rho[i],
                                 energy(method.eos, rho[i], T[i])) - static_pressure(method, x[i, 1])
     return Points(x, made, v, T, rho, P, rows)

@@ -25,11 +25,11 @@ from particles.smooth.shifting import DeltaPlus
 from particles.smooth.spam import LessStatic, Spam
 from particles.smooth.transport import TransportVelocity
 from particles.walls.fixed import fixed_plates
-from particles.walls.mirror import Copied, Odd, plates
+from particles.walls.mirror import Odd, plates
 from particles.weights import Lucy, WendlandC2
 
-WALLS = {"closed": closed(Odd(), Copied()), "periodic": everywhere(BOX),
-         "layer": PERIODIC + plates(BOX[1], HOT, COLD, Odd(), Copied())}
+WALLS = {"closed": closed(Odd()), "periodic": everywhere(BOX),
+         "layer": PERIODIC + plates(BOX[1], HOT, COLD, Odd())}
 EOS = {"closed": VanDerWaals(), "periodic": IdealGas(), "layer": IdealGas()}
 P0 = LessStatic(0.0, 1.2, 0.0)
 KINDS = pytest.mark.parametrize("kind", [DeltaPlus, TransportVelocity])

@@ -21,7 +21,7 @@ from particles.smooth.transport import TransportVelocity
 from particles.terms import ArithmeticGradients
 from particles.threads import Threads
 from particles.walls.fixed import fixed_plates
-from particles.walls.mirror import AtWall, Copied, Odd, Own, plates, sides
+from particles.walls.mirror import AtWall, Odd, plates, sides
 from particles.walls.periodic import periodic
 from particles.weights import WEIGHTS, Lucy, Monaghan, WendlandC2, WendlandC4, WendlandC6
 
@@ -33,9 +33,9 @@ ETA, NU, POWER = ConstEta(0.4, 0.3), ConstNu(0.4, 0.3), PowerLaw(0.4, 0.3, 0.5, 
 PERIODIC = periodic(BOX[0])
 
 
-def closed(rule, pressure):
+def closed(rule, own_pressure=False):
     """Four mirrors."""
-    return sides(BOX[0], 1.0, -0.05, rule, pressure) + plates(BOX[1], HOT, COLD, rule, pressure)
+    return sides(BOX[0], 1.0, -0.05, rule, own_pressure) + plates(BOX[1], HOT, COLD, rule, own_pressure)
 
 
 class Setup(NamedTuple):
@@ -50,32 +50,32 @@ FIXED = fixed_plates(BOX[1], HOT, COLD, rows=6, spacing=0.9)
 # every printed weight, equation of state, law, wall, rule and variant at least twice, in different company
 SETUPS = {
     "printed": Setup(Lucy, IdealGas(), ETA, PERIODIC + plates(BOX[1], HOT, COLD)),
-    "odd, own": Setup(Monaghan, VanDerWaals(), NU, PERIODIC + plates(BOX[1], HOT, COLD, Odd(), Own())),
-    "four walls": Setup(WendlandC2, DenseFluid(), ETA, closed(AtWall(), Own())),
-    "four odd walls": Setup(WendlandC4, IdealGas(), NU, closed(Odd(), Copied()),
+    "odd, own": Setup(Monaghan, VanDerWaals(), NU, PERIODIC + plates(BOX[1], HOT, COLD, Odd(), True)),
+    "four walls": Setup(WendlandC2, DenseFluid(), ETA, closed(AtWall(), True)),
+    "four odd walls": Setup(WendlandC4, IdealGas(), NU, closed(Odd()),
                             {"gradients": ArithmeticGradients()}),
     "fixed": Setup(WendlandC6, VanDerWaals(), POWER, PERIODIC + FIXED),
-    "fixed between mirrors": Setup(Lucy, DenseFluid(), NU, FIXED + sides(BOX[0], 1.0, -0.05, Odd(), Own())),
+    "fixed between mirrors": Setup(Lucy, DenseFluid(), NU, FIXED + sides(BOX[0], 1.0, -0.05, Odd(), True)),
     "no walls": Setup(WendlandC4, VanDerWaals(), POWER, everywhere(BOX)),
     "arithmetic": Setup(Lucy, IdealGas(), ETA, everywhere(BOX), {"gradients": ArithmeticGradients()}),
     "direct": Setup(Lucy, IdealGas(), ETA, PERIODIC + plates(BOX[1], HOT, COLD), {"transport": Direct}),
     "direct, less static": Setup(Monaghan, DenseFluid(), ETA, PERIODIC + FIXED,
                                    {"transport": Direct, "static": LessStatic(0.6, 1.2, 1.1)}),
-    "sumB": Setup(WendlandC2, DenseFluid(), ETA, closed(Odd(), Copied()), {"transport": Corrected}),
+    "sumB": Setup(WendlandC2, DenseFluid(), ETA, closed(Odd()), {"transport": Corrected}),
     "reverse": Setup(WendlandC2, IdealGas(), POWER, everywhere(BOX), {"transport": Reversed}),
-    "symmetric": Setup(WendlandC4, IdealGas(), ETA, PERIODIC + plates(BOX[1], HOT, COLD, Odd(), Own()),
+    "symmetric": Setup(WendlandC4, IdealGas(), ETA, PERIODIC + plates(BOX[1], HOT, COLD, Odd(), True),
                        {"transport": Symmetrised}),
-    "corrected": Setup(WendlandC2, VanDerWaals(), ETA, closed(Odd(), Copied()), {"transport": AllCorrected}),
-    "CRKSPH": Setup(WendlandC2, VanDerWaals(), NU, closed(Odd(), Copied()), {"transport": Crksph}),
+    "corrected": Setup(WendlandC2, VanDerWaals(), ETA, closed(Odd()), {"transport": AllCorrected}),
+    "CRKSPH": Setup(WendlandC2, VanDerWaals(), NU, closed(Odd()), {"transport": Crksph}),
     "CRKSPH, periodic": Setup(Lucy, IdealGas(), ETA, everywhere(BOX), {"transport": Crksph}),
-    "MFM": Setup(WendlandC2, DenseFluid(), NU, closed(Odd(), Copied()), {"transport": Mfm}),
+    "MFM": Setup(WendlandC2, DenseFluid(), NU, closed(Odd()), {"transport": Mfm}),
     "MFM, less static": Setup(WendlandC4, IdealGas(), ETA, PERIODIC + plates(BOX[1], HOT, COLD, Odd()),
                               {"transport": Mfm, "static": LessStatic(0.5, 1.2, 0.9)}),
-    "MFM, adiabatic": Setup(WendlandC2, DenseFluid(), NU, closed(Odd(), Copied()),
+    "MFM, adiabatic": Setup(WendlandC2, DenseFluid(), NU, closed(Odd()),
                             {"transport": AdiabaticMfm}),
-    "riemann": Setup(WendlandC2, DenseFluid(), ETA, closed(Odd(), Copied()),
+    "riemann": Setup(WendlandC2, DenseFluid(), ETA, closed(Odd()),
                      {"transport": LowDissipationSums}),
-    "less static": Setup(WendlandC6, VanDerWaals(), NU, closed(Odd(), Own()),
+    "less static": Setup(WendlandC6, VanDerWaals(), NU, closed(Odd(), True),
                          {"static": LessStatic(1.0, 1.2, 1.1)}),
 }
 
@@ -178,7 +178,7 @@ def test_a_particle_on_the_seam_has_all_its_neighbours(side):
 @pytest.mark.parametrize("kind", [Nested, Direct, DeltaPlus, TransportVelocity])
 def test_threads_do_not_change_a_bit(columns, rows, kind):
     box, static = (float(columns), float(rows)), LessStatic(0.0, 1.2*(kind is TransportVelocity), 0.0)
-    walls = periodic(box[0]) + plates(box[1], HOT, COLD, Odd(), Copied())
+    walls = periodic(box[0]) + plates(box[1], HOT, COLD, Odd())
     spam = Spam(weight=Lucy.of(h=3.0), eos=IdealGas(), law=ETA, walls=walls, box=box, g=0.05, transport=kind,
                 static=static)
     state = kind.complete(crowd(box, columns, rows), 1.0, 1.0)
@@ -206,7 +206,7 @@ def test_a_particle_whose_neighbours_lie_in_a_line_is_named():
 def test_walls_at_rest_do_no_work_on_a_riemann_problem():
     """What would heat a particle beside its images is P u*, and u* is the velocity of the wall."""
     spam = Spam(weight=WendlandC2.of(h=3.0), eos=IdealGas(), law=ConstEta(0.0, 0.0), box=(7.0, 8.0),
-                transport=Mfm, walls=periodic(7.0) + plates(8.0, HOT, COLD, Odd(), Copied()))
+                transport=Mfm, walls=periodic(7.0) + plates(8.0, HOT, COLD, Odd()))
     x, y = (q.ravel() for q in np.meshgrid(np.arange(7) - 3.0, np.arange(8) - 3.5))
     state = np.array([x, y, 0*x, np.where(abs(y) > 3, 0.1*np.sign(y), 0.0), 1 + 0*x])
     out = rates(spam, state)
@@ -215,9 +215,9 @@ def test_walls_at_rest_do_no_work_on_a_riemann_problem():
 
 def test_pressure_heats_a_layer_at_rest_at_its_plates_in_printed_mfm_alone():
     """Images that copy P bend it at plates: Riemann problems there have a velocity v*, which carries heat."""
-    scene, walls = RayleighBenard(ra=1e4, L=12.0, aspect=1.0), (Odd(), Copied())
+    scene = RayleighBenard(ra=1e4, L=12.0, aspect=1.0)
     spam = Spam(weight=WendlandC2.of(h=3.0), eos=IdealGas(), law=ConstEta(0.1, 0.0), g=scene.g,
-                box=(12.0, 12.0), walls=periodic(12.0) + plates(12.0, scene.T_hot, scene.T_cold, *walls))
+                box=(12.0, 12.0), walls=periodic(12.0) + plates(12.0, scene.T_hot, scene.T_cold, Odd()))
     x = np.stack(lattice((12.0, 12.0), 12, 12), axis=1)
     state = spam.state(x, 1.0, 0*x, scene.fields(x)[2])
     printed, *others = (abs(rates(replace(spam, transport=kind), state)[4]).max()
@@ -227,5 +227,5 @@ def test_pressure_heats_a_layer_at_rest_at_its_plates_in_printed_mfm_alone():
 
 def test_mfm_refuses_images_that_do_not_copy_pressure():
     spam = free(transport=Mfm)
-    with pytest.raises(ValueError, match=r"mirrored as images copy it, not as Own\(\) .* take Copied\(\)"):
-        replace(spam, walls=closed(Odd(), Own())).start(9, Threads(1))
+    with pytest.raises(ValueError, match=r"mirrored as images copy it: take own_pressure = False"):
+        replace(spam, walls=closed(Odd(), True)).start(9, Threads(1))

@@ -202,7 +202,7 @@ class Mfm(OverFaces):
         super().__init__(method, n, threads)
         images = [wall for wall in method.walls if type(wall) in image_pressure.kinds]
         if not all(image_pressure(wall, 0.0, 1.0) for wall in images):
-            raise ValueError("slopes of P are mirrored as images copy it, not as Own() has it: take Copied()")
+            raise ValueError("slopes of P are mirrored as images copy it: take own_pressure = False")
 
     def finish(self, given: tuple[Any, float]) -> None:
         self.threads(_reconstruct, self.around.rows, self.more, self.records)

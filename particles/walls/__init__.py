@@ -3,7 +3,7 @@
 A wall is a NamedTuple. It makes ghosts, each the image of a parent (a fluid particle, a fixed one or a ghost
 of an earlier wall), and keeps the particles inside.
 """
-from math import inf, isclose
+from math import inf, isclose, isnan, nan
 
 from continuum.jit import generic, jit
 
@@ -51,21 +51,20 @@ def fixed_points(wall, width, height):
 def check_ends(walls: tuple, box: tuple[float, float]) -> None:
     """Check that walls are at ends of the box, one at most at each, and that periodic ends come in pairs.
 
-    An end without a wall is open. Raises ValueError, also for a T that is not positive and finite.
+    An end without a wall is open. Raises ValueError, also for a T that is not positive and finite, unless a
+    heat flux q is given.
     """
     ends: dict[tuple[int, bool], bool] = {}
     for wall in walls:
-        plate = getattr(wall, "mirror", wall)
-        at, axis = getattr(plate, "at", getattr(plate, "near", None)), getattr(plate, "axis", 1)
+        at, axis = getattr(wall, "at", getattr(wall, "near", None)), getattr(wall, "axis", 1)
         if at is None:
             continue        # a user's own kind of wall
-        T = getattr(plate, "T", 1.0)
-        if not 0 < T < inf and (plate is wall or T == T):       # nan: a heat flux is given instead
+        if isnan(getattr(wall, "q", nan)) and not 0 < getattr(wall, "T", 1.0) < inf:
             raise ValueError(f"the temperature of {wall} must be positive and finite")
         if not isclose(abs(at), box[axis]/2, rel_tol=1e-9) or (axis, at > 0) in ends:
             raise ValueError(f"{wall} is not at an end of the box {box[0]:g} x {box[1]:g}, or another wall "
                              "is there already: make the walls for this box, one for each end")
-        ends[axis, at > 0] = hasattr(plate, "by")
+        ends[axis, at > 0] = hasattr(wall, "by")
     for (axis, upper), periodic in ends.items():
         if periodic and not ends.get((axis, not upper)):
             raise ValueError(f"the box is periodic at one end along axis {axis} only: take both walls of "

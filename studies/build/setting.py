@@ -5,7 +5,7 @@ velocity `slide` of the upper one, gravity `g`, the fluid `eos, law`, and `field
 """
 from collections.abc import Callable
 from functools import cache
-from math import inf, isclose
+from math import inf, isclose, nan
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -15,7 +15,7 @@ from continuum.scene import Periodic, Torus, Walls
 from continuum.sides import Plate, Sides, Sliding, Slip, warm
 from particles.integral.points import Points, jittered, lattice, random, relaxed, wrapped
 from particles.limits import limit_of
-from particles.walls.mirror import AtWall, Copied, Mirror, OneSide, plates, sides
+from particles.walls.mirror import AtWall, Mirror, plates, sides
 from particles.walls.periodic import periodic
 from particles.weights import WendlandC2
 from studies.build.names import START_JITTER
@@ -72,20 +72,20 @@ def check_places(x: np.ndarray, scene: Any) -> None:
                          "scene, which compare calls for each number of rows")
 
 
-def walls(scene: Any, rule: Any = AtWall(), pressure: Any = Copied()) -> tuple:  # noqa: B008
+def walls(scene: Any, rule: Any = AtWall(), own_pressure: bool = False) -> tuple:  # noqa: B008
     """Walls of a scene: images behind plates, periodic sides or images there; a torus is all periodic."""
     if isinstance(scene.sides, Sides):
-        return of_sides(scene, rule, pressure)
+        return of_sides(scene, rule, own_pressure)
     if isinstance(scene.sides, Torus):
         return (*periodic(scene.width), *periodic(scene.L, axis=1))
-    lower, upper = plates(scene.L, scene.T_hot, scene.T_cold, rule, pressure)
-    upper = OneSide(upper, scene.slide) if scene.slide else upper
+    lower, upper = plates(scene.L, scene.T_hot, scene.T_cold, rule, own_pressure)
+    upper = upper._replace(v=scene.slide) if scene.slide else upper
     if isinstance(scene.sides, Periodic):
         return lower, upper, *periodic(scene.width)
-    return lower, upper, *sides(scene.width, scene.T_mean, -scene.dT/scene.L, rule, pressure)
+    return lower, upper, *sides(scene.width, scene.T_mean, -scene.dT/scene.L, rule, own_pressure)
 
 
-def of_sides(scene: Any, rule: Any, pressure: Any) -> tuple:
+def of_sides(scene: Any, rule: Any, own_pressure: bool) -> tuple:
     """Walls of a scene with four sides: periodic ones, and mirror images by the kind of each side."""
     left, right, bottom, top = scene.sides
     k = float(conductivity(scene.law, 1.0, scene.T_mean))
@@ -95,8 +95,9 @@ def of_sides(scene: Any, rule: Any, pressure: Any) -> tuple:
             made += periodic(length, axis)
             continue
         for side, inner in zip(pair, (1.0, -1.0)):
-            mirror = Mirror(axis, -inner*length/2, inner, side.T, 0.0, rule, pressure)
-            made.append(OneSide(mirror, getattr(side, "v", 0.0), isinstance(side, Slip), side.q, k))
+            q = nan if warm(side) else side.q
+            made.append(Mirror(axis, -inner*length/2, inner, side.T, 0.0, rule, own_pressure,
+                               getattr(side, "v", 0.0), isinstance(side, Slip), q, k))
     return tuple(made)
 
 

@@ -22,7 +22,7 @@ from particles.smooth.sums import Direct, Nested
 from particles.smooth.transport import TransportVelocity
 from particles.terms import ArithmeticGradients, Gradients
 from particles.walls.fixed import fixed_plates
-from particles.walls.mirror import Odd, Own
+from particles.walls.mirror import Odd
 from particles.walls.periodic import periodic
 from particles.weights import WEIGHTS, Lucy, Monaghan, WendlandC2
 from studies.build.names import START_JITTER
@@ -51,12 +51,12 @@ def images_odd(scene: Any) -> tuple:
 
 def images_own(scene: Any) -> tuple:
     """Images at rest with the plate's temperature, pressure from the image's own state."""
-    return around(scene, pressure=Own())
+    return around(scene, own_pressure=True)
 
 
 def images_odd_own(scene: Any) -> tuple:
     """Images with v -> -v, T -> 2 T_w - T, pressure from the image's own state."""
-    return around(scene, Odd(), Own())
+    return around(scene, Odd(), own_pressure=True)
 
 
 def fixed_rows(scene: Any) -> tuple:

@@ -24,7 +24,7 @@ from particles.limits import step_limit
 from particles.observe import Grid, Smoothed
 from particles.run import STUDIES, Divergence, Plan, run
 from particles.smooth.spam import Spam
-from particles.walls.mirror import Copied, Mirror, Odd
+from particles.walls.mirror import Mirror, Odd
 from particles.walls.periodic import periodic
 from particles.weights import Lucy
 from studies.build.measure import Snapshot, turns
@@ -185,7 +185,7 @@ class Interface(Case):
     def run(self, report: Report, folder: Path) -> Outcome:
         """Run until the reflected shock reaches the mirror: no wave has then come back to the interface."""
         width, height = box = WIDTH*self.scale, TALL*self.scale
-        floor = Mirror(1, -height/2, 1.0, 1.0, 0.0, Odd(), Copied())      # above is vacuum
+        floor = Mirror(1, -height/2, 1.0, 1.0, 0.0, Odd())      # above is vacuum
         method = Spam(weight=Lucy.of(h=3.0), eos=IdealGas(), law=FRICTIONLESS, box=box,
                       walls=(*periodic(width), floor))
         state, light = gases(self.scale, self.steep, self.seed)
