@@ -5,17 +5,11 @@ between reconstructed states and carries P* along as heat. Where images copy P, 
 jumps stay: a conducting layer at rest, Ra 10 000, 25 rows, gains -0.78 of k dT/L per row at its hot plate.
 GIZMO, hydro_core_meshless.h, therefore uses another work if |v*| is small beside c; here P* S.(v_i - v_j)/2.
 """
-from particles.pairs import pair_term
-from particles.smooth.meshless import Given, Meshless, Mfm, area, pressed, push
+from particles.smooth.meshless import Meshless, Mfm, pressed
 
 
-class Adiabatic(Given):
+class Adiabatic(Meshless):
     """As `Meshless`, with the work P* S.(v_i - v_j)/2."""
-
-
-@area.of(Adiabatic)
-def _(term, a, b, x, y, ab):
-    return area(Meshless(term.weight, term.m), a, b, x, y, ab)
 
 
 @pressed.of(Adiabatic)
@@ -24,9 +18,6 @@ def _(term, a, b, x, y, Sx, Sy):
     return P, P*(Sx*(a.vx - b.vx) + Sy*(a.vy - b.vy))
 
 
-pair_term(Adiabatic, 3)(push)
-
-
 class AdiabaticMfm(Mfm):
     """Sums of MFM with the term `Adiabatic`."""
-    kind = Adiabatic    # type: ignore[assignment]
+    kind = Adiabatic

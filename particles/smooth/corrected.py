@@ -22,11 +22,8 @@ from continuum.fluid import conductivity, viscosity
 from continuum.jit import formula, generic, jit
 from particles.pairs import pair_term, sweep
 from particles.smooth.sums import Direct
-from particles.walls import mirrored
+from particles.threads import Threads
 
-#: of a particle; B is symmetric, tau has the direction first, then the component
-FIELDS = "x y vx vy T P irho eta k Bxx Bxy Byy xx xy yx yy"
-Point = np.dtype([(name, "f8") for name in FIELDS.split()])
 #: det M/(tr M)^2 that neighbours in a line have by round-off
 FLAT = 1e-12
 FAR = 2**62
@@ -40,19 +37,16 @@ class SumB(NamedTuple):
     """P_i B_i + P_j B_j."""
 
 
-class Reverse(NamedTuple):
+class Reverse(SumB):
     """P_i B_j + P_j B_i."""
 
 
-class Symmetric(NamedTuple):
+class Symmetric(SumB):
     """(P_i + P_j) (B_i + B_j)/2."""
 
 
-class All(NamedTuple):
+class All(SumB):
     """As `SumB`; friction and heat over the mean of tr M_i/2 and tr M_j/2, to first order in M - 1."""
-
-
-PRESSURE_ONLY: tuple[type, ...] = (SumB, Reverse, Symmetric)
 
 
 @generic
@@ -65,11 +59,9 @@ def areas(term, own, other):
     """(A, C) from own = B_a grad w and other = B_b grad w, each (x, y)."""
 
 
-for kind in PRESSURE_ONLY:
-    gain.of(kind)(lambda term, a, b: 1.0)
+gain.of(SumB)(lambda term, a, b: 1.0)
 gain.of(All)(lambda term, a, b: 0.25*(a.Bxx + a.Byy + b.Bxx + b.Byy))
 areas.of(SumB)(lambda term, own, other: (own, other))
-areas.of(All)(lambda term, own, other: (own, other))
 areas.of(Reverse)(lambda term, own, other: (other, own))
 
 
@@ -86,8 +78,8 @@ def _(term, a, b, ab):
     return x*wx, x*wy, y*wy, u*wx, u*wy, v*wx, v*wy, T*wx, T*wy
 
 
-def push(term, a, b, ab):
-    """Acceleration and heating of a."""
+@pair_term(SumB, 3)
+def _(term, a, b, ab):
     x, y, u, v = a.x - b.x, a.y - b.y, a.vx - b.vx, a.vy - b.vy
     f = a.irho*b.irho
     A, C = areas(term, turned(a, f*ab.wx, f*ab.wy), turned(b, f*ab.wx, f*ab.wy))
@@ -106,18 +98,17 @@ def turned(a, x, y):
     return a.Bxx*x + a.Bxy*y, a.Bxy*x + a.Byy*y
 
 
-for kind in (*PRESSURE_ONLY, All):
-    pair_term(kind, 3)(push)
-
-
 class Corrected(Direct):
     """Sums with corrected gradients and one of the terms of pressure."""
     term: ClassVar[Any] = SumB()
-    along_pairs = False
+    along_pairs, numbers = False, "x y vx vy T P irho eta k"
+    #: B, and tau (direction, component) of the reversed velocity, whose slopes along a side change sign
+    turns: ClassVar[dict[str, str]] = {"Bxx": "xx", "Bxy": "xy", "Byy": "yy",
+                                       "xx": "x", "xy": "x", "yx": "y", "yy": "y"}
 
-    def allocate(self, points: int) -> None:
-        super().allocate(points)
-        self.records, self.moments = np.empty(points, Point), np.empty((self.around.rows, 9))
+    def __init__(self, method: Any, n: int, threads: Threads):
+        super().__init__(method, n, threads)
+        self.moments = np.empty((self.around.rows, 9))
 
     def gradients(self) -> None:
         """Corrected gradients, for measured quantities."""
@@ -134,8 +125,7 @@ class Corrected(Direct):
             raise FloatingPointError(f"the neighbours of the particle at ({around.x[flat]:.6g}, "
                                      f"{around.y[flat]:.6g}) lie in a line with it, or there are none: no "
                                      "gradient is known there; take a wider weight, or fill the box")
-        for wall, parent, first, last in around.blocks:
-            _image(first, last, parent, mirrored(wall), records)
+        self.mirror()
         return self.term, records
 
 
@@ -179,13 +169,3 @@ def _slopes(first, last, moments, records, slopes):
     for i in range(first, last):
         for k in range(3):
             slopes[i, k], slopes[i, 4 + k] = turned(records[i], moments[i, 3 + 2*k], moments[i, 4 + 2*k])
-
-
-@jit
-def _image(first, last, parent, axis, records):
-    """Images: B of parents, mirrored; tau of the reversed velocity, whose slopes along a side change sign."""
-    along_x, along_y = (-1.0 if axis == 1 else 1.0), (-1.0 if axis == 0 else 1.0)
-    for i in range(first, last):
-        a, p = records[i], records[parent[i - first]]
-        a.Bxx, a.Bxy, a.Byy = p.Bxx, along_x*along_y*p.Bxy, p.Byy
-        a.xx, a.xy, a.yx, a.yy = along_y*p.xx, along_y*p.xy, along_x*p.yx, along_x*p.yy

@@ -14,18 +14,11 @@ import numpy as np
 
 from continuum.jit import formula, generic, jit
 from particles.pairs import pair_term, sweep
-from particles.smooth.corrected import FIELDS, Corrected, Point
+from particles.smooth.corrected import Corrected
 from particles.smooth.sums import sound
 from particles.threads import Threads
-from particles.walls import image_pressure, mirrored
+from particles.walls import image_pressure
 from particles.weights import shape, value_and_slope
-
-#: additional fields of a record, and their sign in a mirror: each x changes it in a mirror across x, each y
-#: across y, - in both. Images copy c and do not take that of their T, so that v* is 0 at a wall at rest
-REPRODUCING = {"c": "", "p": "", "qx": "x", "qy": "y", "gx": "x", "gy": "y", "qxx": "xx", "qxy": "xy",
-               "qyx": "xy", "qyy": "yy"}
-MESHLESS = {"c": "", "bxx": "xx", "bxy": "xy", "byy": "yy", "u_x": "-x", "u_y": "-y", "v_x": "-x",
-            "v_y": "-y", "P_x": "x", "P_y": "y"}
 
 
 class Given(NamedTuple):
@@ -157,46 +150,42 @@ pair_term(Meshless, 3)(push)
 
 
 class OverFaces(Corrected):
-    """Base class of CRKSPH and MFM: sums and fields in addition to those of `Corrected`."""
+    """Base class of CRKSPH and MFM: sums and numbers in addition to those of `Corrected`."""
     sums: ClassVar[Any]
     columns: ClassVar[int]
     kind: ClassVar[Any]
-    turns: ClassVar[dict[str, str]]
-    finish: Any     # computes fields of rows from their sums
+    finish: Any     # computes numbers of rows from their sums
 
-    def allocate(self, points: int) -> None:
-        super().allocate(points)
-        self.records = np.zeros(points, [*Point.descr, *((name, "f8") for name in self.turns)])
+    def __init__(self, method: Any, n: int, threads: Threads):
+        super().__init__(method, n, threads)
         self.more = np.empty((self.around.rows, self.columns))
 
     def exchange(self, less: np.ndarray) -> tuple[Any, np.ndarray]:
         _, records = super().exchange(less)     # raises an error if neighbours lie in a line
         around, method = self.around, self.method
         given = method.weight, method.m
-        self.threads(sound, around.rows, method.eos, around.rho, around.T, records)
         self.threads(sweep, around.rows, self.sums(*given), records, around.pairs, self.more)
         self.finish(given)
-        numbers, first_own = records.view("f8").reshape(len(records), -1), len(FIELDS.split())
-        for wall, parent, first, last in around.blocks:
-            signs = np.array([turned(how, mirrored(wall)) for how in self.turns.values()])
-            numbers[first:last, first_own:] = signs*numbers[parent, first_own:]
+        self.mirror()
         return self.kind(*given), records
 
 
-def turned(how: str, axis: int) -> float:
-    """Sign of a field in a mirror across an axis; 1 without a mirror (axis = -1)."""
-    return (-1.0)**(how.count("xy"[axis]) + how.count("-")) if axis >= 0 else 1.0
-
-
 class Crksph(OverFaces):
-    sums, columns, kind, turns = Moments, 12, Reproducing, REPRODUCING
+    sums, columns, kind = Moments, 12, Reproducing
+    turns: ClassVar[dict[str, str]] = Corrected.turns | {
+        "p": "", "qx": "x", "qy": "y", "gx": "x", "gy": "y", "qxx": "xx", "qxy": "xy", "qyx": "xy",
+        "qyy": "yy"}
 
     def finish(self, given: tuple[Any, float]) -> None:
         self.threads(_reproduce, self.around.rows, *given, self.moments, self.more, self.records)
 
 
 class Mfm(OverFaces):
-    sums, columns, kind, turns = Differences, 9, Meshless, MESHLESS
+    sums, columns, kind = Differences, 9, Meshless
+    #: images copy c and do not take that of their T, so that v* is 0 at a wall at rest
+    turns: ClassVar[dict[str, str]] = Corrected.turns | {
+        "c": "", "bxx": "xx", "bxy": "xy", "byy": "yy", "u_x": "-x", "u_y": "-y", "v_x": "-x", "v_y": "-y",
+        "P_x": "x", "P_y": "y"}
 
     def __init__(self, method: Any, n: int, threads: Threads):
         super().__init__(method, n, threads)
@@ -205,6 +194,8 @@ class Mfm(OverFaces):
             raise ValueError("slopes of P are mirrored as images copy it: take own_pressure = False")
 
     def finish(self, given: tuple[Any, float]) -> None:
+        around = self.around
+        self.threads(sound, around.rows, self.method.eos, around.rho, around.T, self.records)
         self.threads(_reconstruct, self.around.rows, self.more, self.records)
 
 

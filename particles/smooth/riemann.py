@@ -11,9 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from particles.pairs import pair_term
-from particles.smooth.sums import Direct, DirectState, sound
-
-State = np.dtype([*DirectState.descr, ("c", "f8")])
+from particles.smooth.sums import Direct, sound
 
 
 class LowDissipation(NamedTuple):
@@ -34,10 +32,7 @@ def _(term, a, b, ab):
 
 class LowDissipationSums(Direct):
     """Sums of classic SPH with the term `LowDissipation`."""
-
-    def allocate(self, points: int) -> None:
-        super().allocate(points)
-        self.records = np.empty(points, State)
+    numbers = f"{Direct.numbers} c"
 
     def exchange(self, less: np.ndarray) -> tuple[Any, np.ndarray]:
         around, (_, records) = self.around, super().exchange(less)

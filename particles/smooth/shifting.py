@@ -26,7 +26,7 @@ from continuum.jit import jit
 from particles.pairs import pair_term, sweep
 from particles.smooth.corrected import FLAT
 from particles.smooth.led import Led
-from particles.smooth.sums import DirectState
+from particles.smooth.sums import Direct
 from particles.threads import Threads
 from particles.walls import fixed_points
 from particles.weights import value_and_slope
@@ -79,9 +79,8 @@ def _(term, a, b, ab):
 class DeltaPlus(Led):
     """Sums of delta-plus-SPH; V_i = m_i/rho_i."""
     of_state: ClassVar[tuple[str, ...]] = (*Led.of_state, "rho", "m")
-    numbers = np.dtype([*DirectState.descr,
-                        *((name, "f8") for name in "V rho P e c per_w dx dy gx gy".split())])
-    vectors = (("dx", "dy"), ("gx", "gy"))
+    numbers = f"{Direct.numbers} V rho P e c per_w"
+    turns: ClassVar[dict[str, str]] = {"dx": "x", "dy": "y", "gx": "x", "gy": "y"}
 
     def __init__(self, method: Any, n: int, threads: Threads):
         super().__init__(method, n, threads)

@@ -10,11 +10,9 @@ from particles.lists import Listed, PairLists, unphysical
 from particles.pairs import sweep
 from particles.terms import DirectFluxes, Fluxes, density_factor
 from particles.threads import Threads
-from particles.walls import image_flux, image_pressure
+from particles.walls import image_flux, image_pressure, mirrored
 
 Moving = np.dtype([(name, "f8") for name in ("vx", "vy", "T", "s")])
-Flux = np.dtype([(name, "f8") for name in ("xx", "xy", "qx", "vx", "yx", "yy", "qy", "vy")])  # one cache line
-DirectState = np.dtype([(name, "f8") for name in ("x", "y", "vx", "vy", "T", "P_rho2", "irho", "eta", "k")])
 
 
 class SmoothSums(Listed, ABC):
@@ -23,17 +21,22 @@ class SmoothSums(Listed, ABC):
     places : number of leading rows of a state that are positions; `velocity` : their rates, for integrators
     that step positions separately. symbol : field of `particles.limits.Symbols` that replaces the squared
     wave number. of_state : names of the rows of a state. along_pairs : whether friction goes along pairs
-    alone, which needs a constant viscosity.
+    alone, which needs a constant viscosity. numbers : names in a record of the third sum; after them come
+    those of `turns`, which images get from their parents, each with its sign in a mirror: an x changes it in
+    a mirror across x, a y in one across y, - in both.
     """
     places, along_pairs = 2, False
     of_state: ClassVar[tuple[str, ...]] = ("x", "y", "vx", "vy", "e")
     symbol: ClassVar[str]
+    numbers: ClassVar[str]
+    turns: ClassVar[dict[str, str]] = {}
 
     def __init__(self, method: Any, n: int, threads: Threads):
         self.method, self.threads, self.n = method, threads, n
         self.around = PairLists(method.weight, method.walls, n, method.box, skin=method.skin, threads=threads)
         self.slopes, self.pull = np.zeros((self.around.rows, 8)), np.zeros((self.around.rows, 5))
-        self.less, self.moving = np.empty(0), np.empty(0, Moving)
+        self.record = np.dtype([(name, "f8") for name in (*self.numbers.split(), *self.turns)])
+        self.less, self.moving, self.records = np.empty(0), np.empty(0, Moving), np.empty(0, self.record)
 
     @classmethod
     def complete(cls, state: np.ndarray, rho: Any, m: float) -> np.ndarray:
@@ -52,8 +55,9 @@ class SmoothSums(Listed, ABC):
         """First sum, equation of state, and then velocities, temperatures and pressures of images."""
         around, method = self.around, self.method
         self.place(state)
-        if len(self.less) != len(around.x):
-            self.allocate(len(around.x))
+        if len(self.less) != (points := len(around.x)):     # it changes with the lists
+            self.less, self.moving = np.empty(points), np.empty(points, Moving)
+            self.records = np.zeros(points, self.record)
         self.threads(_thermal, around.rows, self.n, state, method.eos, method.static, method.g, around.y,
                      around.rho, around.vx, around.vy, around.T, around.P, self.less)
         around.move()
@@ -88,9 +92,12 @@ class SmoothSums(Listed, ABC):
         rho, method = self.around.rho[:self.n], self.method
         return unphysical(method.eos, method.m/rho, rho, state[4], ids) or self.outran(state)
 
-    def allocate(self, points: int) -> None:
-        """Allocate arrays over all points, whose number changes with the lists."""
-        self.less, self.moving = np.empty(points), np.empty(points, Moving)
+    def mirror(self) -> None:
+        """Set the numbers of images that are in `turns`."""
+        values = self.records.view("f8").reshape(len(self.records), -1)[:, -len(self.turns):]
+        for wall, parent, first, last in self.around.blocks:
+            signs = [sign(how, mirrored(wall)) for how in self.turns.values()]
+            values[first:last] = np.array(signs)*values[parent]
 
     def gradients(self) -> None:
         """Second sum: gradients in self.slopes (rows, 8)."""
@@ -104,32 +111,29 @@ class SmoothSums(Listed, ABC):
         return self.slopes.reshape(-1, 2, 4)[:, :, :3].reshape(-1, 6)
 
 
+def sign(how: str, axis: int) -> float:
+    """Sign of a number in a mirror across an axis; 1 without a mirror (axis = -1). how : as in `turns`."""
+    return (-1.0)**(how.count("xy"[axis]) + how.count("-")) if axis >= 0 else 1.0
+
+
 class Nested(SmoothSums):
     """Stress and heat flux from the second sum's gradients, divergence by the third    [KHP95, Sec. II]"""
-    symbol = "nested"
-
-    def allocate(self, points: int) -> None:
-        super().allocate(points)
-        self.flux = np.empty(points, Flux)
+    symbol, numbers = "nested", "xx xy qx vx yx yy qy vy"       # one cache line
 
     def exchange(self, less: np.ndarray) -> tuple[Any, np.ndarray]:
         around = self.around
         self.threads(_fluxes, around.rows, self.method.law, around.rho, around.vx, around.vy, around.T, less,
-                     self.slopes, self.flux)
+                     self.slopes, self.records)
         for wall, parent, first, last in around.blocks:
-            _image_fluxes(first, last, parent, around.rho, around.vx, around.vy, less, self.flux)
+            _image_fluxes(first, last, parent, around.rho, around.vx, around.vy, less, self.records)
             if type(wall) in image_flux.kinds:
-                _turn_fluxes(first, last, wall, around.rho, self.flux)
-        return Fluxes(), self.flux
+                _turn_fluxes(first, last, wall, around.rho, self.records)
+        return Fluxes(), self.records
 
 
 class Direct(SmoothSums):
     """Viscosity and conduction along each pair: no gradients, unless `LessStatic` needs div v."""
-    symbol, along_pairs = "direct", True
-
-    def allocate(self, points: int) -> None:
-        super().allocate(points)
-        self.records = np.empty(points, DirectState)
+    symbol, along_pairs, numbers = "direct", True, "x y vx vy T P_rho2 irho eta k"
 
     def prepare(self, state: np.ndarray) -> None:
         self.densities(state)

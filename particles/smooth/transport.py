@@ -23,7 +23,7 @@ import numpy as np
 from continuum.jit import jit
 from particles.pairs import pair_term, sweep
 from particles.smooth.led import Led
-from particles.smooth.sums import DirectState, sound
+from particles.smooth.sums import Direct, sound
 from particles.threads import Threads
 
 COURANT = 0.25/2    # tau over a/c
@@ -58,7 +58,7 @@ def _(term, a, b, ab):
 
 class TransportVelocity(Led):
     """Sums with the terms `Background` and `Transported`."""
-    numbers = np.dtype([*DirectState.descr, *((name, "f8") for name in ("c", "dx", "dy"))])
+    numbers, turns = f"{Direct.numbers} c", {"dx": "x", "dy": "y"}
 
     def __init__(self, method: Any, n: int, threads: Threads):
         super().__init__(method, n, threads)

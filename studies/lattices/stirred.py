@@ -21,7 +21,7 @@ from particles.limits import lattice_sums, step_limit
 from particles.pairs import entries
 from particles.run import Plan, Run, run
 from particles.smooth.spam import Spam
-from particles.smooth.sums import Nested
+from particles.smooth.sums import Nested, SmoothSums
 from studies.build import spam
 from studies.build.scenes import Tile
 from studies.kit.case import Case, Report
@@ -94,7 +94,7 @@ class Driven(Spam):
         return self.mode.d(self.k*state[:2] + self.mode.phase)
 
 
-class Push(Nested):
+class Push(SmoothSums):
     """Sums with the force, at constant energies."""
 
     def rates(self, state: np.ndarray, out: np.ndarray) -> None:
@@ -105,9 +105,8 @@ class Push(Nested):
 
 
 #: class of sums -> the same with the force
-PUSHED = {kind: type(kind.__name__, (Push, kind), {name: getattr(kind, name) for name in (
-    "allocate", "prepare", "exchange", "gradients", "symbol")}) for kind in (
-        Nested, *(spam.TODAY[name].transport for name in MAKERS))}
+PUSHED = {kind: type(kind.__name__, (Push, kind), {}) for kind in (
+    Nested, *(spam.TODAY[name].transport for name in MAKERS))}
 
 
 def stresses(sums: Any) -> np.ndarray:
