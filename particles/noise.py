@@ -53,12 +53,6 @@ def words_of_point(seed, step, i, block):
 
 
 @inlined
-def uniform(word):
-    """Uniform number between -sqrt 3 and sqrt 3 from a word: mean 0, variance 1    [Groot & Warren 1997]"""
-    return (float(word) + 0.5 - 2.0**31)*(UNIT*np.sqrt(12.0))
-
-
-@inlined
 def normal(one, other):
     """Two standard normal numbers from two words, at most 6.77 in size    [Box & Muller 1958]"""
     r, angle = np.sqrt(-2*np.log((float(one) + 0.5)*UNIT)), 2*np.pi*UNIT*(float(other) + 0.5)
@@ -67,8 +61,9 @@ def normal(one, other):
 
 @inlined
 def uniform_of_pair(seed, step, i, j):
-    """One uniform number of mean 0 and variance 1, symmetric in i, j."""
-    return uniform(words_of_pair(seed, step, i, j, 0)[0])
+    """One uniform number of mean 0 and variance 1, symmetric in i, j    [Groot & Warren 1997]"""
+    word = words_of_pair(seed, step, i, j, 0)[0]
+    return (float(word) + 0.5 - 2.0**31)*(UNIT*np.sqrt(12.0))
 
 
 @inlined

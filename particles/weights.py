@@ -72,13 +72,10 @@ def check_formulas(name: str, phi: Formula, over_q: Formula) -> None:
                              f"{difference/q:.6g}: give the derivative of phi, divided by q")
 
 
-class _Fields(NamedTuple):
+class Weight(NamedTuple):
+    """What all weights share."""
     h: float        # range, w(r >= h) = 0
     scale: float    # w(r) = scale phi(r/h)
-
-
-class Weight(_Fields):
-    """What all weights share."""
 
     @classmethod
     def of(cls, h: float, d: int = 2):
