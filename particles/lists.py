@@ -8,7 +8,7 @@ import numpy as np
 
 from continuum.fluid import valid
 from particles.method import Sums
-from particles.neighbours import farthest, make_lists, sort_into_cells
+from particles.neighbours import NO_LISTS, farthest, make_lists, sort_into_cells
 from particles.pairs import empty_pairs, weigh
 from particles.threads import Threads
 from particles.walls import check_ends, confine, fixed_points, move_images, parents, place_images
@@ -62,7 +62,7 @@ class PairLists:
         self._fixed = tuple(np.concatenate(column) for column in zip(*held, strict=True))
         self.rows = n + len(self._fixed[0])
         self.anchor: np.ndarray | None = None
-        self.pairs, self.lists_made = empty_pairs(self.rows, 0), 0
+        self.pairs, self.lists_made = empty_pairs(NO_LISTS), 0
 
     def must_relist(self, state: np.ndarray, dt: float) -> bool:
         """True if some particle may have moved farther than half of the skin after the coming step."""
@@ -105,9 +105,9 @@ class PairLists:
         self.T[self.n:self.rows] = self._fixed[2]
         cells = sort_into_cells(x, y, self.reach)
         rows, old = slice(self.rows), self.pairs
-        start, length, listed = make_lists(self.threads, cells, x[rows], y[rows], self.reach, 0, old.listed)
-        pairs = old if listed is old.listed else empty_pairs(self.rows, len(listed))
-        self.pairs = pairs._replace(start=start, length=length, listed=listed)
+        lists = make_lists(self.threads, cells, x[rows], y[rows], self.reach, 0, old.listed)
+        same = lists.listed is old.listed
+        self.pairs = old._replace(**lists._asdict()) if same else empty_pairs(lists)
 
     def place(self, state: np.ndarray, m: float) -> None:
         """Set positions of all points, find pairs in range, and sum the density of rows; images copy it."""

@@ -3,7 +3,8 @@
 The list of row i holds all points within `reach` = range + skin of it. Each pair is in two lists, so that one
 thread writes a row of a sum. Indices are unsigned: a signed one costs numba three instructions at every use.
 """
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -12,7 +13,17 @@ from particles.threads import Threads
 
 u32, u64 = np.uint32, np.uint64
 ONE = u64(1)
-NOTHING = np.empty(0, u32)
+MOST = 2000     # neighbours of a point; with more, particles have collapsed
+
+
+class Lists(NamedTuple):
+    """Neighbours listed[start[i]:start[i] + length[i]] of row i."""
+    start: np.ndarray
+    length: np.ndarray
+    listed: np.ndarray
+
+
+NO_LISTS = Lists(np.empty(0, u64), np.empty(0, u32), np.empty(0, u32))
 
 
 class Cells(NamedTuple):
@@ -77,7 +88,7 @@ def _gather(cells, home, ring, x, y, j):
 
 
 @jit
-def list_rows(first, last, cells, x, y, reach, itself, capacity, start, length, listed):
+def list_rows(first, last, cells, x, y, itself, reach, capacity, lists):
     """Write the Verlet lists of rows first..last from first*capacity on. Returns False if they do not fit.
 
     Row i leaves out the point i + `itself`, which is its own. Rows of one cell share the points gathered
@@ -101,28 +112,35 @@ def list_rows(first, last, cells, x, y, reach, itself, capacity, start, length, 
             found += close[k]
         if used + found >= end_of_room:  # the next loop writes one entry too many
             return False
-        start[i], length[i] = used, found
+        lists.start[i], lists.length[i] = used, found
         for k in range(count):
-            listed[used] = near[k]
+            lists.listed[used] = near[k]
             used += close[k]
     return True
 
 
 def make_lists(threads: Threads, cells: Cells, x: np.ndarray, y: np.ndarray, reach: float, itself: int,
-               listed: np.ndarray = NOTHING) -> tuple:
-    """Lists (start, length, listed) of points within `reach` of (x, y); row i leaves out point i + `itself`.
-
-    Reuses the memory of `listed` if it is large enough. Raises FloatingPointError: over 2000 neighbours each.
-    """
+               listed: np.ndarray = NO_LISTS.listed) -> Lists:
+    """Lists of points within `reach` of (x, y); row i leaves out point i + `itself`. May reuse `listed`."""
     occupied = max(int(np.count_nonzero(np.diff(cells.start))), 1)
-    density = len(cells.x)/occupied/cells.side**2
-    rows, room = len(x), 4 + int(1.1*np.pi*reach**2*density)
-    while room < 2000:
-        start, length = np.empty(rows, np.uint64), np.empty(rows, u32)
+    expected = np.pi*reach**2*len(cells.x)/occupied/cells.side**2
+    return fill_lists(threads, list_rows, len(x), len(x), reach, expected, listed, cells, x, y, itself)
+
+
+def fill_lists(threads: Threads, fill: Callable, n: int, rows: int, reach: float, expected: float,
+               listed: np.ndarray, *arguments: Any) -> Lists:
+    """Lists of n points that fill(first, last, *arguments, reach, capacity, lists) writes, sharing `rows`.
+
+    expected : neighbours of each. Reuses the memory of `listed` if it is large enough. Raises
+    FloatingPointError: there are over 2000 neighbours each.
+    """
+    room = 4 + int(1.1*expected)
+    while room < MOST:
         if len(listed) < rows*room:
             listed = np.empty(int(1.1*rows*room), u32)
-        if all(threads(list_rows, rows, cells, x, y, reach, itself, room, start, length, listed)):
-            return start, length, listed
+        lists = Lists(np.empty(n, u64), np.empty(n, u32), listed)
+        if all(threads(fill, rows, *arguments, reach, room, lists)):
+            return lists
         room = int(1.3*room) + 1
     raise FloatingPointError(f"more than {int(room/1.3)} neighbours within {reach:g} of each particle: they "
                              "have collapsed onto each other; lower the step or the attraction")

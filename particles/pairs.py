@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from continuum.jit import generic, jit, jit_records, overload
-from particles.neighbours import ONE, u32, u64
+from particles.neighbours import ONE, Lists, u32, u64
 from particles.weights import shape, slope
 
 
@@ -47,11 +47,10 @@ class Faces(NamedTuple):
     dy: np.ndarray
 
 
-def empty_pairs(rows: int, entries: int) -> Pairs:
-    """Uninitialised arrays for lists of so many entries in all."""
-    (start, first), (length, taken) = np.empty((2, rows), u64), np.empty((2, rows), u32)
-    listed, near = np.empty((2, entries), u32)
-    return Pairs(start, length, listed, first, taken, near, *np.empty((2, entries)))
+def empty_pairs(lists: Lists) -> Pairs:
+    """The lists with uninitialised arrays for as many pairs."""
+    rows, room = len(lists.start), len(lists.listed)
+    return Pairs(*lists, np.empty(rows, u64), np.empty(rows, u32), np.empty(room, u32), *np.empty((2, room)))
 
 
 def entries(pairs: Any, rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

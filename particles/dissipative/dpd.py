@@ -187,10 +187,10 @@ class Forces(Sums):
         if images.stale(x):
             images.relist(x)
             self.now.anchor = images.anchor
-        points = len(images.points.parent)
+        points = len(images.parent)
         if len(self.particle) != points:
             self.particle = np.empty(points, pairs3d.Record)
-        self.threads(pairs3d.record, points, x, v, self.now.ids, images.points, self.particle)
+        self.threads(pairs3d.record, points, x, v, self.now.ids, images.parent, images.shift, self.particle)
 
 
 # --- quantities of a run, from its pair sums and the state ---------------------------------------

@@ -61,10 +61,7 @@ def _(term, a, b, ab):
 
 @jit
 def draw(law, seed, step, i, j, count, zeta):
-    """Write zeta[k] of the first `count` pairs, of particles with ids i[k], j[k], in a step.
-
-    zeta is uniform between -sqrt 3 and sqrt 3    [Groot & Warren 1997]
-    """
+    """Write zeta[k] of the first `count` pairs, of particles with ids i[k], j[k], in a step."""
     if law.sigma == 0:
         zeta[:count] = 0.0
         return
@@ -124,13 +121,13 @@ def sum_pairs(first, last, term, law, seed, step, particle, lists, taken, out):
 
 
 @jit
-def record(first, last, x, v, ids, images, particle):
+def record(first, last, x, v, ids, parent, shift, particle):
     """Write records of points first..last."""
     for k in range(first, last):
-        p, i = particle[k], images.parent[k]
-        p.x, p.y = x[0, i] + images.shift[k, 0], x[1, i] + images.shift[k, 1]
+        p, i = particle[k], parent[k]
+        p.x, p.y = x[0, i] + shift[k, 0], x[1, i] + shift[k, 1]
         p.vx, p.vy, p.id, p.image = v[0, i], v[1, i], ids[i], i
-        p.z, p.vz = (x[2, i] + images.shift[k, 2], v[2, i]) if len(x) == 3 else (0.0, 0.0)
+        p.z, p.vz = (x[2, i] + shift[k, 2], v[2, i]) if len(x) == 3 else (0.0, 0.0)
 
 
 @jit

@@ -12,10 +12,8 @@ from numba import types
 from numba.extending import intrinsic
 
 from continuum.jit import jit
-from particles.neighbours import ONE, counting_sort, farthest, u32, u64
+from particles.neighbours import NO_LISTS, ONE, counting_sort, farthest, fill_lists, u32, u64
 from particles.threads import Threads
-
-MOST = 2000     # neighbours of a particle; with more, particles have collapsed
 
 
 class Cubes(NamedTuple):
@@ -26,13 +24,6 @@ class Cubes(NamedTuple):
     start: np.ndarray
     order: np.ndarray
     x: np.ndarray
-
-
-class Lists(NamedTuple):
-    """Neighbours listed[start[i]:start[i] + length[i]] of row i."""
-    start: np.ndarray
-    length: np.ndarray
-    listed: np.ndarray
 
 
 @jit
@@ -103,9 +94,9 @@ def _within(x, y, z, far2, near, first):
 
 @jit
 def list_rows(first, last, n, cells, reach, capacity, lists):
-    """Write the lists of the particles among points first..last of the cells. Returns False without room.
+    """Write the lists of the n particles among points first..last of the cells. Returns False without room.
 
-    Points below n are particles. Points around a cell are compared 64 at a time, in vector instructions.
+    Points around a cell are compared 64 at a time, in vector instructions.
     """
     most = 27*np.diff(cells.start).max() + 64
     near, number = np.empty((3, most)), np.empty(most, u32)
@@ -157,24 +148,18 @@ def _ghosts(x, sides, d, margin, parent, shift):
     return count
 
 
-class WithGhosts(NamedTuple):
-    """Particles, then ghosts: index of the particle (points,), shift from its place (points, 3)."""
-    parent: np.ndarray
-    shift: np.ndarray
-
-
 class Images:
     """Ghosts and neighbour lists of n particles in a periodic box (d,), d = 2 or 3, centred on the origin.
 
-    reach : of the lists, the range 1 and the skin.
+    reach : of the lists, the range 1 and the skin. parent, shift : index of the particle (points,) and shift
+    from its place (points, 3), of particles, then of ghosts.
     """
 
     def __init__(self, n: int, box: tuple[float, ...], skin: float, threads: Threads):
         self.n, self.box, self.threads = n, np.array(box, float), threads
         self.reach, self.skin = 1.0 + skin, skin
         self.anchor: np.ndarray | None = None
-        self.lists = Lists(np.empty(n, u64), np.empty(n, u32), np.empty(0, u32))
-        self.points = WithGhosts(np.empty(0, np.int64), np.empty((0, 3)))
+        self.lists = NO_LISTS
 
     def stale(self, x: np.ndarray) -> bool:
         """True if lists may miss a pair of particles at x (d, n)."""
@@ -191,24 +176,17 @@ class Images:
         reach, d = self.reach, len(self.box)
         self.anchor = x.copy()
         places = self._make_points(x)
-        cells = sort_into_cells(places, reach)
-        room = 4 + int(1.1*(np.pi if d == 2 else 4/3*np.pi)*reach**d*self.n/np.prod(self.box))
-        while room < MOST:
-            if len(self.lists.listed) < len(places)*room:
-                self.lists = self.lists._replace(listed=np.empty(int(1.1*len(places)*room), u32))
-            if all(self.threads(list_rows, len(places), self.n, cells, reach, room, self.lists)):
-                return
-            room = int(1.3*room) + 1
-        raise FloatingPointError(f"more than {int(room/1.3)} neighbours within {reach:g} of each particle: "
-                                 "they have collapsed onto each other; lower the step")
+        near = (np.pi if d == 2 else 4/3*np.pi)*reach**d*self.n/np.prod(self.box)
+        self.lists = fill_lists(self.threads, list_rows, self.n, len(places), reach, near, self.lists.listed,
+                                self.n, sort_into_cells(places, reach))
 
     def _make_points(self, x: np.ndarray) -> np.ndarray:
-        """Make `points`: particles in the box, and ghosts. Returns their places (points, 3)."""
+        """Make `parent` and `shift` of particles in the box, and of ghosts. Returns places (points, 3)."""
         count, room = -1, int(1.1*self.n*np.prod(1 + 2*self.reach/self.box)) + 100
         while count < 0:
             parent, shift = np.empty(room, np.int64), np.empty((room, 3))
             count, room = _ghosts(x, self.box, len(x), self.reach, parent, shift), 2*room
-        self.points = WithGhosts(parent[:count], shift[:count])
-        places = shift[:count].copy()
-        places[:, :len(x)] += x[:, parent[:count]].T
+        self.parent, self.shift = parent[:count], shift[:count]
+        places = self.shift.copy()
+        places[:, :len(x)] += x[:, self.parent].T
         return places
