@@ -25,7 +25,6 @@ from particles.weights import value_and_slope
 
 TRIALS = 40         # evaluations of the rates of a method without a formula
 TINY = 1e-7         # relative change of a state in a difference quotient of its rates
-STEP = 1e-3         # in fields of order 1: errors are STEP^4 = 1e-12 of fifth derivatives, round-off 1e-13
 
 
 class Symbols(NamedTuple):
@@ -96,21 +95,6 @@ def rates_of(sums: Any, state: np.ndarray) -> np.ndarray:
         raise FloatingPointError(f"rates leave row {row} of out unwritten, or not finite: write d(state)/dt "
                                  "into all of out")
     return out
-
-
-def jacobian(rates: Callable[[np.ndarray, np.ndarray], None], state: np.ndarray,
-             points: Any = slice(None)) -> np.ndarray:
-    """d rates/d state at a state (fields, n) by differences of fourth order, (size, columns), with columns of
-    `points` only. rates(state, out) writes the rates to `out`."""
-    numbers = np.arange(state.size).reshape(state.shape)[:, points].ravel()
-    J, out = np.zeros((state.size, len(numbers))), np.empty(state.shape)
-    for column, number in enumerate(numbers):
-        for shift, weight in ((-2, 1/12), (-1, -8/12), (1, 8/12), (2, -1/12)):
-            moved = state.copy()
-            moved.ravel()[number] += shift*STEP
-            rates(moved, out)
-            J[:, column] += weight*out.ravel()/STEP
-    return J
 
 
 def step_limit(method: Spam, e: Any, rho: float = 1.0) -> float:

@@ -12,12 +12,13 @@ from particles.integral.edge_makers import MAKERS, delaunay, plain, printed, ren
 from particles.integral.edges import Edges
 from particles.integral.interpolants import Exponential, Gaussian, W
 from particles.integral.points import jittered, lattice, pairs
-from particles.limits import jacobian, limit_of, rates_of
+from particles.limits import limit_of, rates_of
 from particles.run import Plan, run
 from particles.smooth.corrected import Symmetrised
 from particles.threads import Threads
 from particles.weights import Lucy, WendlandC2, value_and_slope
 from studies.build.fixed import SCHEMES, fluid
+from studies.build.setting import jacobian
 from studies.operators.equations import (
     PRINTED,
     Spectral,

@@ -14,10 +14,11 @@ from particles.integral.layer import Layer
 from particles.integral.points import jittered, lattice
 from particles.integral.thermal import Thermal, ThreeStage
 from particles.integrators import RK4, Euler
-from particles.limits import jacobian, limit_of
+from particles.limits import limit_of
 from particles.run import Plan, run
 from particles.threads import Threads
 from particles.weights import Lucy
+from studies.build.setting import jacobian
 from studies.noise.covariance import Step, layer_noise, noise, steady, steady_of_steps, waves
 
 

@@ -23,6 +23,7 @@ from studies.build.names import START_JITTER
 FROM_EDGE = 0.25        # spacings: least distance of jittered points from a plate with images
 BREADTH = 16        # spacings across a wave
 APART = 0.5         # least distance of random points, in spacings
+STEP = 1e-3     # in fields of order 1: errors are STEP^4 = 1e-12 of fifth derivatives, round-off 1e-13
 HALVINGS = 8            # of the factor 2 between a stable and an unstable step: to 0.3 %
 WIDENINGS = 6           # factors of 2 on either side before the search gives up
 
@@ -249,3 +250,21 @@ def bracket(grows: Callable[[float], bool], first: float) -> tuple[float, float]
             return (other, step) if bad else (step, other)
         step = other
     return np.nan, np.nan
+
+
+# --- derivatives of rates -----------------------------------------------------------------------------------
+
+
+def jacobian(rates: Callable[[np.ndarray, np.ndarray], None], state: np.ndarray,
+             points: Any = slice(None)) -> np.ndarray:
+    """d rates/d state at a state (fields, n) by differences of fourth order, (size, columns), with columns of
+    `points` only. rates(state, out) writes the rates to `out`."""
+    numbers = np.arange(state.size).reshape(state.shape)[:, points].ravel()
+    J, out = np.zeros((state.size, len(numbers))), np.empty(state.shape)
+    for column, number in enumerate(numbers):
+        for shift, weight in ((-2, 1/12), (-1, -8/12), (1, 8/12), (2, -1/12)):
+            moved = state.copy()
+            moved.ravel()[number] += shift*STEP
+            rates(moved, out)
+            J[:, column] += weight*out.ravel()/STEP
+    return J

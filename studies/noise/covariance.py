@@ -17,9 +17,9 @@ from scipy.optimize import brentq
 from continuum.scene import RayleighBenard
 from particles.integral.fluctuating import conduction, each, friction
 from particles.integral.layer import Layer
-from particles.limits import jacobian
 from particles.threads import Threads
 from studies.build.fixed import Scheme, layer
+from studies.build.setting import jacobian
 from studies.kit.case import Case, Report
 from studies.kit.table import Row
 from studies.noise.partners import ETA, lattice_weights

@@ -26,12 +26,11 @@ from particles.integral.entropy_fluxes import Dissipation, Logarithmic, MeanPres
 from particles.integral.entropy_stable import StableLayer, StableSums
 from particles.integral.exchange import Convection, Listing, Pressure
 from particles.integral.points import Points, lattice
-from particles.limits import jacobian
 from particles.pairs import Faces, sweep
 from particles.threads import Threads
 from particles.weights import WendlandC2
 from studies.build.fixed import SCHEMES, fluid
-from studies.build.setting import Disorder
+from studies.build.setting import Disorder, jacobian
 from studies.kit.case import Case, Report
 from studies.kit.table import Row
 from studies.operators.equations import ALONG, ETA, KAPPA, Spectral, smooth_flow
