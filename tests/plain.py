@@ -44,10 +44,10 @@ def fixed(wall, box):
     """(x, y, T) of the particles of fixed rows behind a plate."""
     found = []
     if isinstance(wall, FixedRows):
-        for row in range(wall.rows):
-            y = wall.at - wall.inner*wall.spacing*(row + 0.5)
-            for column in range(round(box[0]/wall.spacing)):
-                found.append((-box[0]/2 + (column + 0.5)*box[0]/round(box[0]/wall.spacing), y,
+        for row in range(6):
+            y = wall.at - wall.inner*(row + 0.5)
+            for column in range(round(box[0])):
+                found.append((-box[0]/2 + (column + 0.5)*box[0]/round(box[0]), y,
                               wall.T + wall.slope*(y - wall.at)))
     return found
 

@@ -15,7 +15,6 @@ from particles.plan import Plan
 from particles.run import run
 from particles.smooth.spam import Spam
 from particles.threads import Threads
-from particles.walls.fixed import fixed_plates
 from particles.walls.mirror import plates, sides
 from particles.weights import Lucy
 from studies.build import ready
@@ -57,8 +56,6 @@ def test_what_is_made_of_any_numbers_is_refused_in_words_or_has_finite_ones(make
     (lambda: run(replace(METHOD, walls=()), START + np.full((5, 1), 1e6), PLAN), "beyond a wall of the box"),
     (lambda: replace(METHOD, walls=plates(8.0, np.nan, 1.0)), "temperature of Mirror.* must be positive"),
     (lambda: replace(METHOD, walls=sides(16.0, -1.0, 0.0)), "temperature of Mirror.* must be positive"),
-    (lambda: fixed_plates(50.0, 1.5, 0.5, rows=0), "whole rows, at least one, .* got rows = 0"),
-    (lambda: fixed_plates(50.0, 1.5, 0.5, spacing=-1.0), "spacing = -1"),
     (lambda: ready(SCENE, PRINTED._replace(walls=lambda scene: images(scene)[1:])), "walls of printed are 3"),
     (lambda: ready(SCENE, PRINTED, x=START[:2, ::2].T, fields=(1.0, START[2:4, ::2].T, 1.0)),
      "64 particles of unit mass fill 64 of a box of 128"),

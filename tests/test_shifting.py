@@ -153,7 +153,7 @@ def test_what_is_measured_counts_the_masses_that_particles_have():
 
 
 def test_what_they_cannot_take_is_refused():
-    held = spam(DeltaPlus, "layer", walls=PERIODIC + fixed_plates(BOX[1], HOT, COLD, rows=6, spacing=0.9))
+    held = spam(DeltaPlus, "layer", walls=PERIODIC + fixed_plates(BOX[1], HOT, COLD))
     with pytest.raises(ValueError, match=r"FixedRows holds particles whose density .* take images"):
         prepare(held, state_of(held))
     none = replace(spam(TransportVelocity), static=LessStatic(0.0, 0.0))

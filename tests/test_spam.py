@@ -46,7 +46,7 @@ class Setup(NamedTuple):
     other: dict = {}  # noqa: RUF012
 
 
-FIXED = fixed_plates(BOX[1], HOT, COLD, rows=6, spacing=0.9)
+FIXED = fixed_plates(BOX[1], HOT, COLD)
 # every printed weight, equation of state, law, wall, rule and variant at least twice, in different company
 SETUPS = {
     "printed": Setup(Lucy, IdealGas(), ETA, PERIODIC + plates(BOX[1], HOT, COLD)),

@@ -134,7 +134,7 @@ def test_fixed_rows_fit_a_period_that_is_no_multiple_of_their_spacing():
 
 def test_fixed_rows_need_a_positive_temperature():
     with pytest.raises(ValueError,
-                       match=r"last of 6 fixed rows would have T = -0\.05.* take a higher box, fewer rows"):
+                       match=r"last of 6 fixed rows would have T = -0\.05.* take a higher box or closer"):
         fixed_plates(10.0, 1.5, 0.5)
 
 
