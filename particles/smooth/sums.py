@@ -125,9 +125,7 @@ class Nested(SmoothSums):
         self.threads(_fluxes, around.rows, self.method.law, around.rho, around.vx, around.vy, around.T, less,
                      self.slopes, self.records)
         for wall, parent, first, last in around.blocks:
-            _image_fluxes(first, last, parent, around.rho, around.vx, around.vy, less, self.records)
-            if type(wall) in image_flux.kinds:
-                _turn_fluxes(first, last, wall, around.rho, self.records)
+            _image_fluxes(first, last, wall, parent, around.rho, around.vx, around.vy, less, self.records)
         return Fluxes(), self.records
 
 
@@ -193,19 +191,14 @@ def _fluxes(first, last, law, rho, vx, vy, T, less, slopes, flux):
 
 
 @jit
-def _image_fluxes(first, last, parent, rho, vx, vy, less, flux):
+def _image_fluxes(first, last, wall, parent, rho, vx, vy, less, flux):
     """Stress and heat flux copied from the parents, pressure by the wall's rule    [KHP95, Sec. IV]"""
     for i in range(first, last):
         p = parent[i - first]
         a, b, f = flux[i], flux[p], (less[i] - less[p])/rho[i]**2
         a.vx, a.vy = vx[i], vy[i]
         a.xx, a.xy, a.yx, a.yy, a.qx, a.qy = b.xx + f, b.xy, b.yx, b.yy + f, b.qx, b.qy
-
-
-@jit
-def _turn_fluxes(first, last, wall, rho, flux):
-    for i in range(first, last):
-        image_flux(wall, flux[i], rho[i])
+        image_flux(wall, a, rho[i])
 
 
 @jit

@@ -30,7 +30,7 @@ def image_pressure(wall, own, copied):
 
 @generic
 def image_flux(wall, a, rho):
-    """Mirror the stress and heat flux over rho^2 copied to image `a`. Walls that keep both: no formula."""
+    """Mirror the stress and heat flux over rho^2 copied to image `a`, where the wall does not keep them."""
 
 
 @generic

@@ -3,7 +3,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from particles.walls import confine, image_motion, image_point, image_pressure, mirrored, parents
+from particles.walls import confine, image_flux, image_motion, image_point, image_pressure, mirrored, parents
 
 
 class Shift(NamedTuple):
@@ -33,6 +33,7 @@ def _(wall, x, y):
 mirrored.of(Shift)(lambda wall: -1)
 image_motion.of(Shift)(lambda wall, x, y, vx, vy, T: (vx, vy, T))
 image_pressure.of(Shift)(lambda wall, own, copied: copied)
+image_flux.of(Shift)(lambda wall, a, rho: None)
 confine.of(Shift)(lambda wall, state: 0)
 
 
