@@ -25,7 +25,11 @@ def fields_at(sums: Any, state: np.ndarray, x: np.ndarray, y: np.ndarray) -> Smo
     """rho = sum m w, rho v = sum m v w, rho e = sum m e w at places (x, y)    [KHP95, Sec. II]"""
     around, method = sums.around, sums.method
     e = np.concatenate([state[4], energy(method.eos, around.rho[sums.n:], around.T[sums.n:])])
-    values = np.stack([np.ones_like(e), around.vx, around.vy, e], axis=1)*shares(sums, state)[:, None]
+    shares = np.ones_like(e)
+    shares[:sums.n] = sums.shares(state)
+    for _, parent, first, last in around.blocks:
+        shares[first:last] = shares[parent]
+    values = np.stack([np.ones_like(e), around.vx, around.vy, e], axis=1)*shares[:, None]
     out = np.empty((np.size(x), 4))
     cells = sort_into_cells(around.x, around.y, method.weight.h/2)
     at = np.ravel(x).astype(float), np.ravel(y).astype(float)
@@ -33,15 +37,6 @@ def fields_at(sums: Any, state: np.ndarray, x: np.ndarray, y: np.ndarray) -> Smo
     sums.threads(interpolate, len(out), method.weight, method.m, *at, lists, around.x, around.y, values, out)
     rho, vx, vy, e = (column.reshape(np.shape(x)) for column in out.T)
     return Smoothed(rho, vx/rho, vy/rho, e/rho, temperature(method.eos, rho, e/rho))
-
-
-def shares(sums: Any, state: np.ndarray) -> np.ndarray:
-    """Masses of all points over the mass m of the method."""
-    out = np.ones(len(sums.around.x))
-    out[:sums.n] = sums.shares(state)
-    for _, parent, first, last in sums.around.blocks:
-        out[first:last] = out[parent]
-    return out
 
 
 def particle_kinetic(sums: Any, state: np.ndarray) -> float:
@@ -60,7 +55,7 @@ def heat_flow(sums: Any, state: np.ndarray) -> float:
     n, around, method = sums.n, sums.around, sums.method
     _, y, vx, vy, e = state[:5]
     rho, T = around.rho[:n], around.T[:n]
-    gx_vx, gx_vy, _, gy_vx, gy_vy, gy_T = sums.gradient[:n].T
+    gx_vx, gx_vy, _, _, gy_vx, gy_vy, gy_T, _ = sums.slopes[:n].T
     _, sxy, syy = stress(viscosity(method.law, rho, T), 0.0, gx_vx, gx_vy, gy_vx, gy_vy)
     carried = rho*vy*(e + around.P[:n]/rho + (vx**2 + vy**2)/2 + method.g*y)
     flux = carried - conductivity(method.law, rho, T)*gy_T - sxy*vx - syy*vy

@@ -147,7 +147,7 @@ def test_what_is_measured_counts_the_masses_that_particles_have():
     sums.look_at(ordered)
     p, V = plain.points(method, ordered), ordered[6]/ordered[5]
     slow = at_all_points(p, V)*(p.T - p.T[:sums.n, None])*plain.pairs(method, p.x, sums.n)[1][..., 0]
-    assert close(sums.gradient[:, 2], slow.sum(axis=1)) < 1e-12
+    assert close(sums.slopes[:, 2], slow.sum(axis=1)) < 1e-12
     whole = fields_at(sums, ordered, *np.meshgrid(np.arange(9) - 4.0, np.arange(8) - 3.5)).rho.mean()
     assert whole == pytest.approx(state[6].sum()/(BOX[0]*BOX[1]), rel=0.02)
 

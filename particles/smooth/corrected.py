@@ -165,7 +165,7 @@ def _correct(first, last, moments, records):
 
 @jit
 def _slopes(first, last, moments, records, slopes):
-    """Corrected d_x and d_y of vx, vy, T, in the columns that `SmoothSums.gradient` reads."""
+    """Corrected d_x and d_y of vx, vy, T, in the columns of `SmoothSums.gradients`."""
     for i in range(first, last):
         for k in range(3):
             slopes[i, k], slopes[i, 4 + k] = turned(records[i], moments[i, 3 + 2*k], moments[i, 4 + 2*k])

@@ -100,15 +100,10 @@ class SmoothSums(Listed, ABC):
             values[first:last] = np.array(signs)*values[parent]
 
     def gradients(self) -> None:
-        """Second sum: gradients in self.slopes (rows, 8)."""
+        """Second sum: d/dx of vx, vy, T in columns 0, 1, 2 of self.slopes (rows, 8), d/dy in 4, 5, 6."""
         around, kind = self.around, self.method.gradients
         self.threads(_moving, len(around.x), kind, around.vx, around.vy, around.T, around.rho, self.moving)
         self.threads(sweep, around.rows, kind, self.moving, around.pairs, self.slopes)
-
-    @property
-    def gradient(self) -> np.ndarray:
-        """(rows, 6): dvx/dx, dvy/dx, dT/dx, dvx/dy, dvy/dy, dT/dy."""
-        return self.slopes.reshape(-1, 2, 4)[:, :, :3].reshape(-1, 6)
 
 
 def sign(how: str, axis: int) -> float:
