@@ -106,9 +106,7 @@ def _packed(identity: dict[str, str], plan: Plan, now: Run) -> bytes:
     with h5py.File(whole, "w", userblock_size=SEAL) as file:
         for name, text in identity.items():
             file[name] = text       # HDF5 limits the size of attributes
-        for name in SCALARS:
-            file.attrs[name] = getattr(now, name)
-        for name in ("state", "ids", "anchor", "times"):
+        for name in (*SCALARS, "state", "ids", "anchor", "times"):
             file[name] = [] if getattr(now, name) is None else getattr(now, name)
         for group, names in _groups(plan):
             values = getattr(now, group)
@@ -134,7 +132,7 @@ def load(path: Path | None, method: Any, plan: Plan, start: np.ndarray) -> Run |
             raise OSError("it is not as it was written")
         with h5py.File(io.BytesIO(whole), "r") as file:
             _same(path, {name: file[name].asstr()[()] for name in wanted}, wanted)
-            numbers = {name: file.attrs[name].item() for name in SCALARS}
+            numbers = {name: file[name][()].item() for name in SCALARS}
             arrays = {name: file[name][()] for name in ("state", "ids", "anchor")}
             arrays["anchor"] = arrays["anchor"] if arrays["anchor"].size else None    # fixed points have none
             groups = {group: {name: file[f"{group}/{number}"][()] for number, name in enumerate(names)}

@@ -15,7 +15,6 @@ from particles.walls import check_ends, confine, fixed_points, move_images, pare
 from particles.walls.mirror import Mirror
 from particles.walls.periodic import wrap
 
-EMPTY = np.empty(0)
 ROUND_OFF = 1e-12       # relative, of places after some thousand operations
 MARGIN = 1.25  # factor by which a particle may speed up within a step before the lists miss a pair
 
@@ -57,9 +56,8 @@ class PairLists:
             raise ValueError(f"the skin of the neighbour list must be positive, got {skin}: take 0.2 h")
         check_room(weight, walls, box)
         self.weight, self.walls, self.skin, self.threads, self.n = weight, walls, skin, threads, n
-        holding = [wall for wall in walls if type(wall) in fixed_points.kinds]
-        held = [fixed_points(wall, *box) for wall in holding] or [(EMPTY, EMPTY, EMPTY)]
-        self._fixed = tuple(np.concatenate(column) for column in zip(*held, strict=True))
+        held = [fixed_points(wall, *box) for wall in walls if type(wall) in fixed_points.kinds]
+        self._fixed = np.hstack([np.empty((3, 0)), *held])
         self.rows = n + len(self._fixed[0])
         self.anchor: np.ndarray | None = None
         self.pairs, self.lists_made = empty_pairs(NO_LISTS), 0

@@ -16,8 +16,7 @@ LOW, HALF = u64(0xFFFFFFFF), u64(32)
 #: multipliers, and increments of the key per round    [Salmon et al. 2011, Sec. 4.3 and its library]
 M0, M1, W0, W1 = u64(0xD2511F53), u64(0xCD9E8D57), u64(0x9E3779B9), u64(0xBB67AE85)
 UNIT = 2.0**-32
-PAIR, POINT = u64(0), u64(1)
-TWO = u64(2)
+POINT, TWO = u64(1), u64(2)
 #: inlined before loops are vectorised: nine times as fast
 inlined = numba.njit(cache=True, nogil=True, forceinline=True, **OPTIONS)
 
@@ -42,7 +41,7 @@ def philox(a, b, c, d, k0, k1):
 def words_of_pair(seed, step, i, j, block):
     """Four random words of a pair, the same for (i, j) and (j, i); block = 1, 2, ... gives more of them."""
     i, j, seed = u64(i), u64(j), u64(seed)
-    return philox(min(i, j), max(i, j), u64(step) & LOW, TWO*u64(block) + PAIR, seed & LOW, seed >> HALF)
+    return philox(min(i, j), max(i, j), u64(step) & LOW, TWO*u64(block), seed & LOW, seed >> HALF)
 
 
 @inlined
