@@ -10,9 +10,8 @@ from plain_meshless import FACES, everywhere, nearing
 from plain_weights import PRINTED
 
 from continuum.fluid import conductivity, energy, pressure, temperature, viscosity
-from particles.smooth.adiabatic import AdiabaticMfm
 from particles.smooth.corrected import AllCorrected, Corrected, Reversed, Symmetrised
-from particles.smooth.meshless import Crksph, Mfm
+from particles.smooth.meshless import AdiabaticMfm, Crksph, Mfm
 from particles.smooth.riemann import LowDissipationSums
 from particles.smooth.spam import Spam
 from particles.smooth.sums import Direct, Nested

@@ -5,8 +5,7 @@ Each function gives S/2m^2 of pairs (n, points, 2), the force of their pressure 
 import numpy as np
 
 from continuum.fluid import energy, sound_speed
-from particles.smooth.adiabatic import AdiabaticMfm
-from particles.smooth.meshless import Crksph, Mfm
+from particles.smooth.meshless import AdiabaticMfm, Crksph, Mfm
 from particles.walls.mirror import Mirror
 
 

@@ -10,9 +10,8 @@ from crowd import crowd, everywhere, lattice, prepare, rates
 
 from continuum.fluid import EQUATIONS_OF_STATE, ConstEta, ConstNu, DenseFluid, IdealGas, PowerLaw, VanDerWaals
 from continuum.scene import RayleighBenard
-from particles.smooth.adiabatic import AdiabaticMfm
 from particles.smooth.corrected import AllCorrected, Corrected, Reversed, Symmetrised
-from particles.smooth.meshless import Crksph, Mfm
+from particles.smooth.meshless import AdiabaticMfm, Crksph, Mfm
 from particles.smooth.riemann import LowDissipationSums
 from particles.smooth.shifting import DeltaPlus
 from particles.smooth.spam import LessStatic, Spam

@@ -25,8 +25,7 @@ from continuum.fluid import energy, sound_speed
 from continuum.jit import jit
 from particles.pairs import pair_term, sweep
 from particles.smooth.corrected import FLAT
-from particles.smooth.led import Led
-from particles.smooth.sums import Direct
+from particles.smooth.sums import Direct, Led
 from particles.threads import Threads
 from particles.walls import fixed_points
 from particles.weights import value_and_slope

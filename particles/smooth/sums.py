@@ -12,6 +12,7 @@ from particles.terms import DirectFluxes, Fluxes, density_factor
 from particles.threads import Threads
 from particles.walls import image_flux, image_pressure, mirrored
 
+MOVED = 0.25        # part of the skin that a particle may use before a step; d uses no more of it in the step
 Moving = np.dtype([(name, "f8") for name in ("vx", "vy", "T", "s")])
 
 
@@ -79,6 +80,7 @@ class SmoothSums(Listed, ABC):
         self.threads(sweep, self.n, *self.exchange(self.less), self.around.pairs, self.pull)
         self.threads(_rates, self.n, state, self.pull, self.around.rho, self.slopes, self.method.g,
                      self.method.static, out)
+        out[:2] = self.velocity(state)
 
     def velocity(self, state: np.ndarray) -> np.ndarray:
         return state[2:4]
@@ -138,6 +140,18 @@ class Direct(SmoothSums):
         self.threads(_direct, len(around.x), self.method.law, around.x, around.y, around.rho, around.vx,
                      around.vy, around.T, less, self.records)
         return DirectFluxes(), self.records
+
+
+class Led(Direct):
+    """Base class of particles that move with v + d; their records have d = (dx, dy)."""
+
+    def make_ready(self, now: Any, dt: float) -> None:
+        if self.around.anchor is not None and self.around.moved(now.state) > MOVED*self.around.skin:
+            self.around.anchor = None
+        super().make_ready(now, dt)
+
+    def velocity(self, state: np.ndarray) -> np.ndarray:
+        return state[2:4] + np.stack([self.records[name][:self.n] for name in ("dx", "dy")])
 
 
 @jit
@@ -213,9 +227,8 @@ def sound(first, last, eos, rho, T, records):
 
 @jit
 def _rates(first, last, state, pull, rho, slopes, g, static, out):
-    """Rates of the particles, with force and work of the pressure that is subtracted in the pair sums."""
+    """Rates of velocity and energy, with force and work of the pressure that pair sums subtract."""
     for i in range(first, last):
-        out[0, i], out[1, i] = state[2, i], state[3, i]
         out[2, i], out[3, i], out[4, i] = pull[i, 0], pull[i, 1] - g, pull[i, 2] + pull[i, 4]
     if static.fraction != 0:
         for i in range(first, last):

@@ -22,8 +22,7 @@ import numpy as np
 
 from continuum.jit import jit
 from particles.pairs import pair_term, sweep
-from particles.smooth.led import Led
-from particles.smooth.sums import Direct, sound
+from particles.smooth.sums import Direct, Led, sound
 from particles.threads import Threads
 
 COURANT = 0.25/2    # tau over a/c

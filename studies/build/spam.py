@@ -12,9 +12,8 @@ from continuum.gas.solve import steady_on
 from continuum.scene import RayleighBenard, Torus
 from particles.limits import step_limit
 from particles.observe import PlateHeat, field_kinetic, heat_flow, particle_kinetic
-from particles.smooth.adiabatic import AdiabaticMfm
 from particles.smooth.corrected import AllCorrected, Corrected, Reversed, Symmetrised
-from particles.smooth.meshless import Crksph, Mfm
+from particles.smooth.meshless import AdiabaticMfm, Crksph, Mfm
 from particles.smooth.riemann import LowDissipationSums
 from particles.smooth.shifting import DeltaPlus
 from particles.smooth.spam import LessStatic, Spam
