@@ -8,16 +8,10 @@ import studies.conservation.cases as conservation
 from continuum.fluid import ConstEta, IdealGas
 from particles.fields import Fields
 from particles.integral.dih import NestedFluxes, Pairwise
+from particles.integral.drifts import Powers
 from particles.integral.points import jittered, lattice
-from particles.integral.rr98_moving_plain import (
-    MOTIONS,
-    CarriedVolumes,
-    ConstantMass,
-    Convective,
-    Literal,
-    Powers,
-    scale_of,
-)
+from particles.integral.rr98_moving import scale_of
+from particles.integral.rr98_moving_plain import MOTIONS, ConstantMass, Convective, Literal
 from particles.integrators import RK4, Euler, TwoStep
 from particles.limits import lattice_sums
 from particles.weights import Lucy, WendlandC2
@@ -25,6 +19,7 @@ from studies.conservation.drift import MODES
 from studies.conservation.motions import MovingSound, march, moving
 from studies.conservation.sums import sizes
 
+CARRIED = MOTIONS["carried"]
 COUNTS = {1: (14,), 2: (7, 8), 3: (5, 5, 5)}
 TRANSPORT = {"nested": NestedFluxes(), "pairwise": Pairwise(mended=False), "mended": Pairwise()}
 
@@ -72,7 +67,7 @@ def test_volumes_that_go_with_the_flow_give_it_all_back_but_the_error_of_time_st
         method, at = made(kind)
         state = crowd(method, at)
         return np.abs(method.conserved(after(method, state, n, 1.0/n)) - method.conserved(state))/at.n
-    drift = [lost(CarriedVolumes, n).max() for n in (8, 16)]
+    drift = [lost(CARRIED, n).max() for n in (8, 16)]
     assert drift[0] < 1e-4 and np.log2(drift[0]/drift[1]) > 3.5
     assert (lost(Convective, 8) > 1e-6).all()
 
@@ -83,12 +78,12 @@ def test_volumes_that_go_with_the_flow_give_it_all_back_but_the_error_of_time_st
 def test_equations_46_and_47_are_equation_49(eta, d, transport):
     """m dv/dt = dp/dt - v dm/dt, term by term, at any Reynolds number."""
     found = {}
-    for kind in (Convective, CarriedVolumes, ConstantMass):
+    for kind in (Convective, CARRIED, ConstantMass):
         method, at = made(kind, d, transport=transport, eta=eta)
         state = crowd(method, at)
         out = rates(method, state)
         found[kind] = (out[d + 1:2*d + 1] - method.velocity(state)*out[d])/state[d]
-    for kind in (Convective, CarriedVolumes):
+    for kind in (Convective, CARRIED):
         size = np.abs(found[kind]).max()
         np.testing.assert_allclose(found[kind], found[ConstantMass], rtol=0, atol=1e-13*size)
 

@@ -8,15 +8,15 @@ from crowd import random_fields, rates
 from continuum.fluid import ConstEta, ConstNu, IdealGas, PowerLaw, VanDerWaals
 from continuum.scene import RayleighBenard
 from particles.integral.dih import Pairwise
-from particles.integral.drifts import DRIFTS, ConstantMassDrift
+from particles.integral.drifts import DRIFTS, ConstantMassDrift, Powers
 from particles.integral.edge_makers import plain
 from particles.integral.edges import between_plates
 from particles.integral.exchange import PRINTED
 from particles.integral.interpolants import OrderingWarning
 from particles.integral.layer import Layer, LayerSums
 from particles.integral.points import jittered, lattice
-from particles.integral.rr98_moving import Drift
-from particles.integral.rr98_moving_plain import MOTIONS, Powers, scale_of
+from particles.integral.rr98_moving import Drift, scale_of
+from particles.integral.rr98_moving_plain import MOTIONS
 from particles.integral.transposed_stress import MENDED
 from particles.integrators import RK4
 from particles.limits import limit_of

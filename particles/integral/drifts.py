@@ -5,9 +5,22 @@ import numpy as np
 
 from continuum.jit import generic, jit
 from particles.integral.exchange import At, Convection, Listing, Pressure, Stage, pressure_of, stages_of
-from particles.integral.rr98_moving_plain import Crossed, Powers
 from particles.pairs import Edge, pair_term, rate, zero
 from particles.threads import Threads
+
+
+class Crossed(NamedTuple):
+    """P_ij = P(rho_i, T_j)    [RR98 Eq. 13]"""
+
+
+class Powers(NamedTuple):
+    """P_ij + P_ji = P_i/(m_i^a m_j^b) + P_j/(m_j^a m_i^b), m the density    [RR98 Eq. 50 and note 18]
+
+    Consistent with Eq. 49 for a + b = 0 only: the force is -grad (P/rho^(a+b)). What the points' own pressure
+    does is done with the velocity of the other: internal energy falls by P_i times the growth of volume.
+    """
+    a: float = 0.0
+    b: float = 0.0
 
 
 class OverPairs(NamedTuple):
@@ -74,6 +87,7 @@ def both(bracket, eos, a, b):
 
 
 zero.of(OverPairs)(lambda term: zero(term.term))
+pair_term(Dilution, 4)(lambda term, a, b, ab: (0.0, 0.0, 0.0, 0.0))     # its stage does all
 growth.of(LiteralDrift)(lambda motion, a, b, ab: 0.0)
 growth.of(ConvectiveDrift)(lambda motion, a, b, ab: ab.sx*b.vx + ab.sy*b.vy)
 growth.of(ConstantMassDrift)(lambda motion, a, b, ab: ab.sx*b.vx + ab.sy*b.vy - (ab.sx*a.vx + ab.sy*a.vy))
@@ -85,11 +99,6 @@ def _(term, a, b, ab):
     # points in one place exchange nothing
     k = 2*VV*(x*ab.wx + y*ab.wy)/(x*x + y*y + 1e-300)
     return rate(term.term, a, b, Edge(VV*ab.wx, VV*ab.wy, k))
-
-
-@pair_term(Dilution, 4)
-def _(term, a, b, ab):
-    return 0.0, 0.0, 0.0, 0.0
 
 
 @pair_term(Drifting, 5)

@@ -13,9 +13,11 @@ from continuum.jit import jit
 from particles.fields import Fields, from_densities
 from particles.integral.dih import densities
 from particles.integral.drifts import ConstantMassDrift, Drifting, OverPairs
+from particles.integral.edge_makers import plain, renormalised
 from particles.integral.exchange import At, Exchange, listed, stages
 from particles.integral.fixed import Point
 from particles.integral.interpolants import check_ordering
+from particles.integral.points import Points
 from particles.integral.transposed_stress import MENDED
 from particles.limits import lattice_sums, limit_of, zone
 from particles.lists import Listed, PairLists, fastest, ghosts_of, unphysical
@@ -102,6 +104,11 @@ def _(method: Drift, start: np.ndarray) -> float:
     chi = np.max(np.maximum(viscosity(method.law, rho, T), conductivity(method.law, rho, T)/cv)/rho)
     fast, spread = np.sqrt(np.max(c2*slow + 2*P*stiff)), chi*method.scale*np.max(sums.direct)
     return float(1/1.4/(fast/2.82 + spread/2.78))
+
+
+def scale_of(points: Points, weight: Any) -> float:
+    """The factor of plain quadrature W dV on these points that makes its mean first moment d."""
+    return float(renormalised(points, weight).k.sum()/plain(points, weight).k.sum())
 
 
 class Drifts(Listed):

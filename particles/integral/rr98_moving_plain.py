@@ -12,43 +12,18 @@ volume, as RR98's m_i, p_i, eps_i are of equal volumes dV; or, at constant mass,
 A scheme that is conservative and consistent is another one: see `closed_faces`.
 """
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from functools import partial
+from typing import Any
 
 import numpy as np
 
-from continuum.fluid import energy, pressure
 from particles.fields import Fields, from_densities
-from particles.integral.dih import Dih, EdgeFluxes, Flow, Pairwise, densities, gained, take
-from particles.integral.edge_makers import from_weights, judged, plain, renormalised
+from particles.integral.dih import Dih, EdgeFluxes, Pairwise, densities, gained, take
+from particles.integral.drifts import Crossed, both
+from particles.integral.edge_makers import from_weights, judged
 from particles.integral.edges import Edges
 from particles.integral.interpolants import check
 from particles.integral.points import Points, of_positions, wrapped
-
-
-class Crossed(NamedTuple):
-    """P_ij = P(rho_i, T_j)    [RR98 Eq. 13]"""
-
-    def both(self, eos: Any, a: Flow, b: Flow) -> tuple[np.ndarray, np.ndarray]:
-        """(P_ab, P_ba); in the energy P_ab goes with v_a."""
-        return pressure(eos, a.rho, energy(eos, a.rho, b.T)), pressure(eos, b.rho, energy(eos, b.rho, a.T))
-
-
-class Powers(NamedTuple):
-    """P_ij + P_ji = P_i/(m_i^a m_j^b) + P_j/(m_j^a m_i^b), m the density    [RR98 Eq. 50 and note 18]
-
-    Consistent with Eq. 49 for a + b = 0 only: the force is -grad (P/rho^(a+b)). What the points' own pressure
-    does is done with the velocity of the other: internal energy falls by P_i times the growth of volume.
-    """
-    a: float = 0.0
-    b: float = 0.0
-
-    def both(self, eos: Any, a: Flow, b: Flow) -> tuple[np.ndarray, np.ndarray]:
-        return b.P/(b.rho**self.a*a.rho**self.b), a.P/(a.rho**self.a*b.rho**self.b)
-
-
-def scale_of(points: Points, weight: Any) -> float:
-    """The factor of plain quadrature W dV on these points that makes its mean first moment d."""
-    return float(renormalised(points, weight).k.sum()/plain(points, weight).k.sum())
 
 
 def convected(edges: Edges, v: np.ndarray, fields: np.ndarray) -> np.ndarray:
@@ -70,7 +45,7 @@ def divergence(edges: Edges, v: np.ndarray) -> np.ndarray:
 class Motion:
     """What all have in common: a fluid on points that move in a periodic box (d,) around the origin.
 
-    weight : of `weights` or `interpolants`, for d dimensions. scale : of plain quadrature, see `scale_of`.
+    weight : of `weights` or `interpolants`, for d dimensions. scale : of `rr98_moving.scale_of`.
     """
     box: tuple[float, ...]
     weight: Any
@@ -143,7 +118,8 @@ class Literal(Motion):
 class Convective(Motion):
     """Eqs 34-36, 39, 46-48 as printed: m_i, p_i, eps_i of volumes dV that stay as they are.
 
-    follow : volumes grow by so much of V div v, with the divergence that Eqs 34 and 46 leave in dm_i/dt.
+    follow : volumes grow by so much of V div v, with the divergence that Eqs 34 and 46 leave in dm_i/dt;
+    with 1 rho_i V_i stays as it is, as at constant mass.
     """
     follow: float = 0.0
 
@@ -153,12 +129,6 @@ class Convective(Motion):
         dih.rates(state[d:-1], out[d:-1])
         out[d:-1] += convected(dih.edges, v.T, state[d:-1])
         out[:d], out[-1] = v, self.follow*V*divergence(dih.edges, v.T)
-
-
-@dataclass(frozen=True, kw_only=True)
-class CarriedVolumes(Convective):
-    """Eqs 46-48 on volumes that go with the flow: rho_i V_i then stays as it is, as at constant mass."""
-    follow: float = 1.0
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -181,7 +151,7 @@ class ConstantMass(Motion):
         dih = self.fluid(state[:d].T, V)
         flow, edges = dih.flow(state[d:-1]/V), dih.edges
         a, b, half = take(flow, edges.i), take(flow, edges.j), edges.S/2
-        P_ab, P_ba = self.bracket.both(self.eos, a, b)
+        P_ab, P_ba = both(self.bracket, self.eos, a, b)
         to_a, to_b = (half*a.v).sum(axis=1), (half*b.v).sum(axis=1)
         pushed = EdgeFluxes(np.zeros(len(half)), half*(P_ab + P_ba)[:, None], P_ab*to_a + P_ba*to_b)
         out[d:-1] = gained(edges, pushed, self.transport.fluxes(dih, flow))
@@ -193,5 +163,5 @@ class ConstantMass(Motion):
 
 
 #: by name
-MOTIONS: dict[str, Any] = {"literal": Literal, "convective": Convective, "carried": CarriedVolumes,
-                           "constant-mass": ConstantMass}
+MOTIONS: dict[str, Any] = {"literal": Literal, "convective": Convective,
+                           "carried": partial(Convective, follow=1.0), "constant-mass": ConstantMass}

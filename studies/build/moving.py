@@ -12,13 +12,12 @@ from continuum.scene import Torus, Walls
 from particles.fields import kinetic
 from particles.integral.bodies import Held, Rows, held, together
 from particles.integral.closed_faces import FaceSums, Ingredients, Moving
-from particles.integral.drifts import DRIFTS, ConstantMassDrift, OverPairs
+from particles.integral.drifts import DRIFTS, ConstantMassDrift, OverPairs, Powers
 from particles.integral.exchange import PRINTED
 from particles.integral.moving_delaunay import SHIFT, MovingDelaunay, RingSums
 from particles.integral.points import lattice
 from particles.integral.rings import rings, spokes
-from particles.integral.rr98_moving import Drift, Drifts
-from particles.integral.rr98_moving_plain import Powers, scale_of
+from particles.integral.rr98_moving import Drift, Drifts, scale_of
 from particles.integral.transposed_stress import MENDED
 from particles.observe import pairs_behind
 from particles.pairs import entries, pair_term, sweep

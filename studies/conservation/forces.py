@@ -13,9 +13,10 @@ import numpy as np
 
 from continuum.fluid import ConstEta, IdealGas
 from particles.integral.dih import Dih, NestedFluxes, carried, densities, take
+from particles.integral.drifts import Powers
 from particles.integral.edges import Edges
 from particles.integral.points import Points, jittered
-from particles.integral.rr98_moving_plain import MOTIONS, ConstantMass, Powers
+from particles.integral.rr98_moving_plain import MOTIONS, ConstantMass
 from particles.limits import rates_of
 from particles.run import Plan, run
 from particles.smooth.spam import Spam

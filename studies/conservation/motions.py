@@ -7,15 +7,10 @@ from numpy.linalg import norm
 
 from continuum.fluid import ConstEta, IdealGas
 from particles.integral.dih import Pairwise
+from particles.integral.drifts import Powers
 from particles.integral.points import Points, jittered, lattice
-from particles.integral.rr98_moving_plain import (
-    MOTIONS,
-    ConstantMass,
-    Convective,
-    Powers,
-    convected,
-    scale_of,
-)
+from particles.integral.rr98_moving import scale_of
+from particles.integral.rr98_moving_plain import MOTIONS, ConstantMass, Convective, convected
 from particles.integrators import RK4, Euler, TwoStep
 from particles.limits import rates_of
 from particles.threads import Threads
