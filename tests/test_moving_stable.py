@@ -13,10 +13,10 @@ from particles.integral.carried import follow
 from particles.integral.entropy_fluxes import Logarithmic, MeanPressure
 from particles.integral.exchange import Pressure
 from particles.integral.moving_stable import StableDelaunay
-from particles.integral.positive import switched
 from particles.pairs import sweep
 from particles.threads import Threads
 from studies.build import SCENES, ready
+from studies.build.stable import switched
 
 ONE = Threads(1)
 

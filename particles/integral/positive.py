@@ -10,7 +10,7 @@ import numpy as np
 
 from continuum.fluid import IdealGas
 from continuum.jit import formula, generic, jit
-from particles.integral.entropy_fluxes import Dissipation, against, fastest
+from particles.integral.entropy_fluxes import against, fastest
 from particles.integral.exchange import Listing
 from particles.integral.fixed import first_invalid, inner
 from particles.integral.lanes import LOW
@@ -90,27 +90,6 @@ def _(term, a, b, ab):
     less = min(share_of(term.eos, a, a.room*m, a.room*px, a.room*py, a.room*e),
                share_of(term.eos, b, -b.room*m, -b.room*px, -b.room*py, -b.room*e)) - 1
     return less*m, less*px, less*py, less*e
-
-
-class Switched(NamedTuple):
-    """Counts edges that dissipate."""
-    term: Dissipation
-
-
-@pair_term(Switched, 1)
-def _(term, a, b, ab):
-    m, px, py, e = rate(term.term, a, b, ab)
-    return (1.0 if m != 0 or px != 0 or py != 0 or e != 0 else 0.0,)
-
-
-def switched(sums: Any, state: np.ndarray) -> float:
-    """Share of edges that dissipate, at the state last looked at: a quantity of a run."""
-    term = next((one for one in sums.method.flow if isinstance(one, Dissipation)), None)
-    if term is None:
-        return 0.0
-    count, edges = np.zeros((sums.n, 1)), sums.edges
-    sums.threads(sweep, sums.n, Switched(term), sums.points, edges, count)
-    return float(count.sum()/edges.taken.sum())
 
 
 class Limits:

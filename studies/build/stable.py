@@ -15,6 +15,7 @@ from particles.integral.points import of_positions
 from particles.integral.rings import rings
 from particles.integral.stream import Stream
 from particles.integral.triangulation import around, delaunay
+from particles.pairs import pair_term, rate, sweep
 from studies.build.fixed import OF_LIMIT, Scheme
 from studies.build.moving import Carriage
 from studies.build.setting import Ready, check_points, in_scene, no_still_layer, shifted, stepped
@@ -94,3 +95,24 @@ BODIES = {one.name: one for one in (
     Around("fixed-jittered-plates-entropy-stable", flux=True),
     Past("moving-delaunay"), Past("moving-delaunay-entropy-stable", flux=True),
 )}
+
+
+class Switched(NamedTuple):
+    """Counts edges that dissipate."""
+    term: Dissipation
+
+
+@pair_term(Switched, 1)
+def _(term, a, b, ab):
+    m, px, py, e = rate(term.term, a, b, ab)
+    return (1.0 if m != 0 or px != 0 or py != 0 or e != 0 else 0.0,)
+
+
+def switched(sums: Any, state: np.ndarray) -> float:
+    """Share of edges that dissipate, at the state last looked at: a quantity of a run."""
+    term = next((one for one in sums.method.flow if isinstance(one, Dissipation)), None)
+    if term is None:
+        return 0.0
+    count, edges = np.zeros((sums.n, 1)), sums.edges
+    sums.threads(sweep, sums.n, Switched(term), sums.points, edges, count)
+    return float(count.sum()/edges.taken.sum())

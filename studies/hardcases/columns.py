@@ -18,10 +18,9 @@ from continuum.exact.blast import blast
 from continuum.exact.shear import growing_wave, layer_with_wave
 from continuum.fluid import ConstEta, IdealGas
 from particles.fields import Fields, kinetic_energy
-from particles.integral.positive import switched
 from studies.build import answer, variants
 from studies.build.scenes import SOUND, Start, TaylorGreen
-from studies.build.stable import BODIES
+from studies.build.stable import BODIES, switched
 from studies.hardcases.extremes import SPEED
 from studies.hardcases.impacts import EOS, GAMMA, PROBLEMS, Bow, Frictionless, Ripple, Strip, radii
 from studies.hardcases.runs import GRID, Course, Question, Row, copied, fate
