@@ -6,7 +6,7 @@ the triangulation to round-off: they need no relaxation, and no static pressure 
 sides and bodies, stay in place or move with a side that slides along itself. Second order in space.
 """
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -161,6 +161,7 @@ class MovingDelaunay:
 
     names = ROWS
     integrator = Carry
+    sums: ClassVar[type] = RingSums
 
     def __post_init__(self):
         loose = np.setdiff1d(np.flatnonzero(self.rings.rim), self.held.which)
@@ -187,10 +188,10 @@ class MovingDelaunay:
         x = state[:2].T - self.rings.size*np.rint(state[:2].T*self.rings.per)
         return from_densities(self.eos, x, V.copy(), m/V, np.stack([px, py])/V, E/V)
 
-    def start(self, n: int, threads: Threads) -> RingSums:
+    def start(self, n: int, threads: Threads) -> Any:
         """The sums over the triangulation. Raises ValueError: a state of another number of points."""
         check_number(n, len(self.x))
-        return RingSums(self, threads)
+        return self.sums(self, threads)
 
 
 @limit_of.register

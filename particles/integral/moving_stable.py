@@ -14,7 +14,7 @@ from particles.integral.carried import EXCHANGED, complete, follow, heat, hold, 
 from particles.integral.entropy_fluxes import MeanPressure
 from particles.integral.entropy_stable import flow_of
 from particles.integral.exchange import Listing
-from particles.integral.fixed import NO_IMAGES, check_number, first_invalid
+from particles.integral.fixed import NO_IMAGES, first_invalid
 from particles.integral.lanes import Point
 from particles.integral.moving_delaunay import MovingDelaunay, RingSums
 from particles.integral.positive import COURANT, LEAST, OLD, PART, Limits, Slopes, divided
@@ -205,11 +205,8 @@ class StableDelaunay(MovingDelaunay):
     `carried.Crossing`; by default an ideal gas has `MeanPressure`, which is nearest to that."""
     flow: tuple = ()
 
+    sums = StableRings
+
     def __post_init__(self):
         super().__post_init__()
         flow_of(self, MeanPressure)
-
-    def start(self, n: int, threads: Threads) -> StableRings:
-        """The sums over the triangulation. Raises ValueError: a state of another number of points."""
-        check_number(n, len(self.x))
-        return StableRings(self, threads)
