@@ -14,7 +14,7 @@ from particles.integral.exchange import Conduction, Friction, Listing
 from particles.integral.lanes import BLOCK, COLUMNS, end_at, read_lanes
 from particles.integral.transposed_stress import Mending
 from particles.neighbours import u32, u64
-from particles.pairs import Face, Faces, rate, sweep
+from particles.pairs import Face, Faces, pair_at, rate, sweep
 from particles.threads import Threads
 
 FEW = 2         # edges of a block that dissipate: if more do, dissipation is computed for the whole block
@@ -39,9 +39,7 @@ class Once(NamedTuple):
     sign: np.ndarray
 
 
-@formula
-def edge_at(once, h):
-    return Face(once.sx[h], once.sy[h], once.k[h], once.dx[h], once.dy[h])
+pair_at.of(Once)(lambda once, h: Face(once.sx[h], once.sy[h], once.k[h], once.dx[h], once.dy[h]))
 
 
 @formula
@@ -97,7 +95,7 @@ def _carry(first, last, terms, own, points, a, b, once, stirred, sent):
     """Exchange by terms over edges, without the pressures of both ends, which `_receive` adds; marks edges
     that dissipate. a, b : lanes of both ends."""
     for h in range(first, last):
-        ab, q = edge_at(once, h), sent[h]
+        ab, q = pair_at(once, h), sent[h]
         one, other = end_at(a, h - first, points[once.i[h]]), end_at(b, h - first, points[once.near[h]])
         m, px, py, e = rate(terms, one, other, ab)
         less = own*(other.P + other.hydro - one.P)
@@ -109,7 +107,7 @@ def _carry(first, last, terms, own, points, a, b, once, stirred, sent):
 def _stir_all(first, last, term, points, a, b, once, stirred, sent):
     """Add the dissipation of marked edges, computed for all: a branch would end vector instructions."""
     for h in range(first, last):
-        ab, q, here = edge_at(once, h), sent[h], 1.0*stirred[h]
+        ab, q, here = pair_at(once, h), sent[h], 1.0*stirred[h]
         one, other = end_at(a, h - first, points[once.i[h]]), end_at(b, h - first, points[once.near[h]])
         m, px, py, e = waves(term.eos, one, other, ab, *jumps(one, other, ab))
         q.m, q.px, q.py, q.e = q.m + here*m, q.px + here*px, q.py + here*py, q.e + here*e
@@ -121,7 +119,7 @@ def _stir_few(first, last, term, points, once, stirred, sent):
     for h in range(first, last):
         if stirred[h]:
             q = sent[h]
-            m, px, py, e = rate(term, points[once.i[h]], points[once.near[h]], edge_at(once, h))
+            m, px, py, e = rate(term, points[once.i[h]], points[once.near[h]], pair_at(once, h))
             q.m, q.px, q.py, q.e = q.m + m, q.px + px, q.py + py, q.e + e
 
 
