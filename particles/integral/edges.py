@@ -12,7 +12,7 @@ V_i 1. Physics is written over edges; schemes differ in how edges are made: `edg
 `triangulation` from points alone.
 """
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from typing import Any
 
@@ -109,6 +109,12 @@ def _fastest(V: np.ndarray, G: list[sparse.csr_array], laplacian: sparse.csr_arr
     return float(sound[0]), float(-spread[0])
 
 
+def selected(edges: Any, some: np.ndarray) -> Any:
+    """Some of the `Edges`, or of the edges `Beyond`; some (E,) : mask or indices."""
+    return replace(edges, **{field.name: getattr(edges, field.name)[some] for field in fields(edges)
+                             if field.name != "V"})
+
+
 #: signs of the components of a vector that is mirrored in a plate
 MIRROR = np.array([1.0, -1.0])
 
@@ -180,8 +186,7 @@ def between_plates(make: Callable[[Points, Any], Edges], x: np.ndarray, width: f
                        f"m + {n} that of point m, in a box twice as high")
         raise
     ours, images = (edges.i < n) & (edges.j < n), (edges.i < n) != (edges.j < n)
-    inner = Edges(**{name: getattr(edges, name)[ours] for name in ("i", "j", "S", "k", "apart")},
-                  V=edges.V[:n])
+    inner = replace(selected(edges, ours), V=edges.V[:n])
     back = np.where(edges.i[images] < n, 1.0, -1.0)
     i, parent = np.minimum(edges.i, edges.j)[images], np.maximum(edges.i, edges.j)[images] - n
     S, apart = back[:, None]*edges.S[images], back[:, None]*edges.apart[images]

@@ -1,5 +1,5 @@
 """Layers and streams that survive shocks and vacua: `entropy_fluxes`, with time steps of `positive`."""
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from math import ceil, inf
 from typing import Any, ClassVar
 
@@ -8,7 +8,7 @@ import numpy as np
 import particles.integral.van_der_waals  # noqa: F401  (registers its formulas)
 from continuum.fluid import IdealGas, energy, sound_speed
 from continuum.jit import check_formulas, jit
-from particles.integral.edges import NONE_BEYOND, NOWHERE
+from particles.integral.edges import NONE_BEYOND, NOWHERE, selected
 from particles.integral.entropy_fluxes import BlendedPressure, Dissipation, Logarithmic, log_means
 from particles.integral.exchange import At, Exchange, Pressure, Stage, pressure_of
 from particles.integral.fixed import FixedSums, OwnPressure, read, stored
@@ -198,14 +198,8 @@ class StableLayer(Layer):
     def __post_init__(self):
         flow_of(self, Pressure)
         for name in ("edges", "beyond"):        # some are empty at the end of a weight's range
-            object.__setattr__(self, name, of_some_area(getattr(self, name)))
-
-
-def of_some_area(edges: Any) -> Any:
-    """Edges of nonzero area or conductance."""
-    some = (edges.k != 0) | edges.S.any(axis=1)
-    return replace(edges, **{field.name: getattr(edges, field.name)[some] for field in fields(edges)
-                             if field.name != "V"})
+            edges = getattr(self, name)
+            object.__setattr__(self, name, selected(edges, (edges.k != 0) | edges.S.any(axis=1)))
 
 
 @dataclass(frozen=True, kw_only=True)

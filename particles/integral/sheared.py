@@ -9,14 +9,14 @@ velocity v + rate height: which of two boxes is at rest does not matter.
 The state has a fifth row, how far the images above have slid: its rate is their speed, so that every
 integrator and every restart knows the time.
 """
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from particles.integral.edge_makers import renormalised
-from particles.integral.edges import Beyond, Edges
+from particles.integral.edges import Beyond, Edges, selected
 from particles.integral.fixed import FixedSums, OnPoints, stored
 from particles.integral.points import Points, lattice
 from particles.pairs import Stored
@@ -25,25 +25,23 @@ from particles.threads import Threads
 
 class Through(NamedTuple):
     """Entries of stored edges through a side: which, up (1) or down (-1), to the second of two images, with
-    the share theta, or to the first; S/2 and k of the whole edge; point at the place to which it leads."""
+    the share theta, or to the first; point at the place to which it leads."""
     entry: np.ndarray
     up: np.ndarray
     second: np.ndarray
-    sx: np.ndarray
-    sy: np.ndarray
-    k: np.ndarray
     place: np.ndarray
 
 
 def sides(points: Points, edges: Edges) -> tuple[Stored, Through]:
-    """Edges of a periodic lattice with sliding images in place of the periodic ones above and below.
+    """Whole edges of a periodic lattice with sliding images in place of the periodic ones above and below.
 
     They are alike in all columns, and their own mirror images in x, as those of a weight are. Images have
     numbers n.. of those below and 2 n.. of those above, whose place in the lattice comes by sliding.
     """
-    up, parts = crossing(points, edges), ("i", "j", "S", "k", "apart")
-    inside = replace(edges, **{name: getattr(edges, name)[up == 0] for name in parts})
-    i, j, S, k, apart = (getattr(edges, name)[up != 0] for name in parts)
+    # 1 for edges i -> j through the upper side, -1 through the lower, 0 for others
+    up = np.round((points.x[edges.i] + edges.apart - points.x[edges.j])[:, 1]/points.box[1]).astype(int)
+    inside, through = selected(edges, up == 0), selected(edges, up != 0)
+    i, j, S, k, apart = through.i, through.j, through.S, through.k, through.apart
     twice, up = np.concatenate, up[up != 0]
     # each edge in both directions, to both images
     beyond = Beyond(i=twice([i, j, i, j]), parent=twice([j, i, j, i]), S=twice([S, -S, S, -S]),
@@ -51,14 +49,7 @@ def sides(points: Points, edges: Edges) -> tuple[Stored, Through]:
     made = stored(inside, beyond, points.n + np.arange(4*len(i)))
     entry = np.flatnonzero(made.near >= points.n)
     e = made.near[entry] - points.n
-    return made, Through(entry, beyond.plate[e], e//(2*len(i)), made.sx[entry], made.sy[entry], made.k[entry],
-                         beyond.parent[e])
-
-
-def crossing(points: Points, edges: Edges) -> np.ndarray:
-    """1 for edges i -> j through the upper side, -1 through the lower, 0 for others."""
-    beyond = (points.x[edges.i] + edges.apart - points.x[edges.j])[:, 1]
-    return np.round(beyond/points.box[1]).astype(int)
+    return made, Through(entry, beyond.plate[e], e//(2*len(i)), beyond.parent[e])
 
 
 class Boosted(NamedTuple):
@@ -93,8 +84,8 @@ class Shearing(FixedSums):
     method: "Sheared"
 
     def __init__(self, method: "Sheared", threads: Threads):
-        made, n = method.sides[0], method.points.n
-        edges = Stored(*(q.copy() for q in made))      # they follow the sliding
+        (self.whole, self.ends), n = sides(method.points, method.edges), method.points.n
+        edges = Stored(*(q.copy() for q in self.whole))     # they follow the sliding
         images = Boosted(np.tile(np.arange(n), 2), method.speed*np.repeat([-1, 1], n))
         super().__init__(method, threads, edges, images, (0.0, 0.0))
 
@@ -104,11 +95,11 @@ class Shearing(FixedSums):
 
     def surround(self, state: np.ndarray) -> None:
         """Slide the images above: edges through the sides get other shares and lead to other images."""
-        edges, (_, through), (columns, rows) = self.at.edges, self.method.sides, self.method.counts
+        edges, through, (columns, rows) = self.at.edges, self.ends, self.method.counts
         theta, whole = np.modf(state[4, 0]/self.method.points.a % columns)
         share = np.where(through.second, theta, 1 - theta)
         for name in ("sx", "sy", "k"):
-            getattr(edges, name)[through.entry] = share*getattr(through, name)
+            getattr(edges, name)[through.entry] = share*getattr(self.whole, name)[through.entry]
         column = through.place//rows - through.up*(int(whole) + through.second)
         parent = column % columns*rows + through.place % rows
         edges.near[through.entry] = parent + self.n*(1 + (through.up > 0))
@@ -117,8 +108,8 @@ class Shearing(FixedSums):
     def through(self, state: np.ndarray) -> np.ndarray:
         """Mass, momentum (2) and energy that enter through the upper side per time."""
         self.look_at(state)
-        edges, through = self.at.edges, self.method.sides[1]
-        upper = np.isin(np.arange(len(edges.k)), through.entry[through.up > 0])
+        edges = self.at.edges
+        upper = np.isin(np.arange(len(edges.k)), self.ends.entry[self.ends.up > 0])
         alone = edges._replace(sx=upper*edges.sx, sy=upper*edges.sy, k=upper*edges.k)
         return self.exchange.sum(self.at._replace(edges=alone)).sum(axis=0)
 
@@ -149,10 +140,6 @@ class Sheared(OnPoints):
     @property
     def x(self) -> np.ndarray:
         return self.points.x
-
-    @cached_property
-    def sides(self) -> tuple[Stored, Through]:
-        return sides(self.points, self.edges)
 
     @property
     def speed(self) -> float:
