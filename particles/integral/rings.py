@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from continuum.jit import formula, jit
+from particles.integral.edges import NOWHERE
 from particles.integral.triangulation import outside, triangles
 from particles.neighbours import u32, u64
 from particles.pairs import Stored
@@ -21,7 +22,6 @@ FLAT = -1e-9
 ROOM, POINTS = 7, 16
 #: width of strips in spacings: neighbours lie in few runs of memory; wider strips cost a third more
 STRIP = 2.0
-NO_BODY = np.empty(0, int)
 LEAST = 8.0         # spacings along a periodic axis: in a narrower box a point may be a neighbour twice
 
 
@@ -37,7 +37,7 @@ class Rings(NamedTuple):
 
 
 def rings(x: np.ndarray, size: tuple[float, float], closed: tuple[bool, bool],
-          body: np.ndarray = NO_BODY) -> Rings:
+          body: np.ndarray = NOWHERE) -> Rings:
     """Rings of the Delaunay triangulation of points (n, 2) in a box of this size.
 
     closed : axes along which triangles end at sides. body : points on a convex body, where they end, too.

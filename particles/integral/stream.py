@@ -47,7 +47,8 @@ class Streaming(FixedSums):
 
     def __init__(self, method: "Stream", threads: Threads):
         n = len(method.x)
-        edges = stored(insulated(method.edges, method.held) if method.solid else method.edges)
+        edges = stored(separated(method.edges, method.held, True) if method.solid else method.edges)
+        # no mass seeps through a body
         around = stored(separated(method.edges, method.held))
         filters = (Filtering(Filter(method.chi), around, n, threads),) if method.chi else ()
         super().__init__(method, threads, edges, NO_IMAGES, method.push,
@@ -97,18 +98,13 @@ class Stream(OnPoints):
         return super().state(rho, v, T)
 
 
-def insulated(edges: Edges, held: Held) -> Edges:
-    """Edges without friction and heat between points of two bodies, and within adiabatic bodies."""
+def separated(edges: Edges, held: Held, warm: bool = False) -> Edges:
+    """Edges with k = 0 between held points; warm : but for edges within bodies of given temperature."""
     body = np.full(edges.n, -1)
-    body[held.which] = np.where(np.isnan(held.T), -2 - np.arange(len(held.T)), held.body)
+    alone = -2 - np.arange(len(held.T))
+    body[held.which] = np.where(warm & ~np.isnan(held.T), held.body, alone)
     a, b = body[edges.i], body[edges.j]
     return replace(edges, k=np.where((a != b) & (a != -1) & (b != -1), 0.0, edges.k))
-
-
-def separated(edges: Edges, held: Held) -> Edges:
-    """Edges for the filter, with k = 0 between held points: no mass seeps through a body."""
-    inside = np.isin(np.arange(edges.n), held.which)
-    return replace(edges, k=np.where(inside[edges.i] & inside[edges.j], 0.0, edges.k))
 
 
 @jit
