@@ -11,7 +11,7 @@ from continuum.scene import RayleighBenard
 from particles.integral.edges import NONE_BEYOND
 from particles.integral.entropy_fluxes import CALM, STEEPEST, bend, shock, unturned
 from particles.integral.entropy_stable import Positive, StableLayer
-from particles.integral.exchange import Listing
+from particles.integral.exchange import At, Listing
 from particles.integral.once import Sending, empty_once, fill_once
 from particles.integral.points import random
 from particles.integral.positive import Slopes
@@ -173,7 +173,8 @@ def test_points_gain_what_rows_bring(name, state):
     sweep(0, sums.n, Slopes(), sums.points, sums.edges, slopes)
     sweep(0, sums.n, Listing((*method.transport, *method.flow)), sums.points, sums.edges, rows)
     sums.sending.follow(sums.edges)
-    once = sums.sending.sum(sums.points, slopes)
+    sums.sending.slopes, sums.sending.stages = slopes, ()
+    once = sums.sending.sum(At(sums.points, sums.edges, sums.images, np.ones(sums.n)))
     assert np.allclose(once, rows, rtol=0, atol=1e-13*np.abs(rows).max())
 
 
@@ -203,6 +204,6 @@ def test_threads_change_no_bit(name):
 
 def test_nothing_is_sent_where_nothing_is_listed():
     sums = looked_at(closed(), violent(closed()))
-    sending = Sending((), (), sums.n, Threads(1))
+    sending = Sending((), (), sums.slopes, Threads(1))
     sending.follow(sums.edges)
-    assert not sending.sum(sums.points, sums.slopes).any()
+    assert not sending.sum(sums.at).any()

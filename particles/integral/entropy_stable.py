@@ -10,11 +10,10 @@ from continuum.fluid import IdealGas, energy, sound_speed
 from continuum.jit import check_formulas, jit
 from particles.integral.edges import NONE_BEYOND, NOWHERE, selected
 from particles.integral.entropy_fluxes import BlendedPressure, Dissipation, Logarithmic, log_means
-from particles.integral.exchange import At, Exchange, Pressure, Stage, pressure_of
+from particles.integral.exchange import Pressure, pressure_of
 from particles.integral.fixed import FixedSums, OwnPressure, read, stored
 from particles.integral.lanes import Point
 from particles.integral.layer import Layer, LayerSums
-from particles.integral.once import Sending
 from particles.integral.positive import COURANT, LEAST, OLD, PART, Limits, Slopes, divided
 from particles.integral.stream import Stream, Streaming, keep
 from particles.integral.transposed_stress import Heating
@@ -62,19 +61,6 @@ def _mirrored(origin, points, n):
         b.rho_y, b.P_y, b.u_y, b.v_x = -a.rho_y, -a.P_y, -a.u_y, -a.v_x
 
 
-class Sent(Exchange):
-    """Exchange that evaluates the listed terms once per edge, and their stages."""
-
-    def __init__(self, stages: tuple[Stage, ...], sending: Sending, slopes: np.ndarray):
-        self.stages, self.sending, self.slopes, self.total = stages, sending, slopes, sending.total
-
-    def sum(self, at: At) -> np.ndarray:
-        total = self.sending.sum(at.points, self.slopes)
-        for stage in self.stages:
-            stage.add(at, total)
-        return total
-
-
 class Stable(Limits, FixedSums):
     """Common part of the compiled sums over stored edges; a base class in front of a scene's `FixedSums`."""
 
@@ -93,7 +79,7 @@ class Stable(Limits, FixedSums):
         self.at, self.edges = self.at._replace(points=self.points, edges=edges), edges
         self.images = self.at.images
         self.sending.follow(edges)
-        self.exchange = Sent(self.exchange.stages, self.sending, self.slopes)
+        self.sending.stages, self.exchange = self.exchange.stages, self.sending
         k = 2*np.bincount(beyond.i, beyond.k, n) - method.edges.laplacian.diagonal()
         self.spread = k/self.at.V
 

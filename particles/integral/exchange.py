@@ -140,10 +140,14 @@ class Exchange:
 
     def sum(self, at: At) -> np.ndarray:
         """Gain of each point, (n, columns), in an array that the next sum overwrites."""
-        self.threads(sweep, self.n, self.term, at.points, at.edges, self.total)
+        self.over_edges(at)
         for stage in self.stages:
             stage.add(at, self.total)
         return self.total
+
+    def over_edges(self, at: At) -> None:
+        """Write the sum of the terms to `total`."""
+        self.threads(sweep, self.n, self.term, at.points, at.edges, self.total)
 
 
 def stages(terms: tuple, law: Any, n: int, threads: Threads, *more: Any) -> tuple[Stage, ...]:

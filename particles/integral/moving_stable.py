@@ -13,7 +13,7 @@ from particles.integral import march
 from particles.integral.carried import EXCHANGED, complete, follow, heat, hold, read, receive
 from particles.integral.entropy_fluxes import MeanPressure
 from particles.integral.entropy_stable import flow_of
-from particles.integral.exchange import Listing
+from particles.integral.exchange import At, Listing
 from particles.integral.fixed import NO_IMAGES, first_invalid
 from particles.integral.lanes import Point
 from particles.integral.moving_delaunay import MovingDelaunay, RingSums
@@ -35,7 +35,8 @@ class StableRings(Limits, RingSums):
         super().__init__(method, threads)
         self.set_limits(method.flow)
         self.images, self.turned = NO_IMAGES, -1
-        self.whole, self.densities = np.zeros((self.n, 8)), np.zeros((2, 4, self.n))
+        # pressures are sent without the correction of slopes on sides
+        self.sending.slopes, self.densities = np.zeros((self.n, 8)), np.zeros((2, 4, self.n))
         self.points = np.zeros(self.n, Point)
         self.bench = self.bench._replace(points=self.points)
         self.fluid = self.fluid._replace(terms=Listing((*method.transport, *method.flow)))
@@ -81,7 +82,7 @@ class StableRings(Limits, RingSums):
         self.fields(y)
         n, points, rings = self.n, self.points, self.rings
         self.threads(sweep, n, Slopes(), points, self.edges, self.slopes)
-        np.copyto(self.whole, self.slopes)
+        np.copyto(self.sending.slopes, self.slopes)
         self.threads(_at_sides, n, Slopes(), points, rings, self.slopes)
         self.threads(divided, n, self.slopes, self.V, points)
 
@@ -164,7 +165,8 @@ class StableRings(Limits, RingSums):
 
     def euler(self, y: np.ndarray, h: float) -> bool:
         """Euler step without moving points. False: not even Rusanov's flux keeps rho, e > 0."""
-        total, (before, after) = self.sending.sum(self.points, self.whole), self.densities
+        total = self.sending.sum(At(self.points, self.edges, NO_IMAGES, self.V))
+        before, after = self.densities
         self.threads(_gained, self.n, h, self.method.g, total, self.bench, y, before, after)
         self.lost = self.n if (y[7] > 0).all() else int(y[7].argmin())
         less = self.less(before, after, h/y[7]) if self.lost == self.n else None

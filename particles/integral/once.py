@@ -10,7 +10,7 @@ import numpy as np
 
 from continuum.jit import formula, jit, jit_apart, jit_records
 from particles.integral.entropy_fluxes import Dissipation, Logarithmic, astir, jumps, waves
-from particles.integral.exchange import Conduction, Friction, Listing
+from particles.integral.exchange import At, Conduction, Exchange, Friction, Listing
 from particles.integral.lanes import BLOCK, COLUMNS, end_at, read_lanes
 from particles.integral.transposed_stress import Mending
 from particles.neighbours import u32, u64
@@ -152,11 +152,15 @@ def _receive(first, last, own, slopes, edges, once, sent, total):
         total[i, 1], total[i, 2] = px - own*slopes[i, 3], py - own*slopes[i, 7]
 
 
-class Sending:
-    """Sums of listed terms, each edge evaluated once; transport terms not in `ALIKE` are summed by rows."""
+class Sending(Exchange):
+    """Sums of listed terms, each edge evaluated once; transport terms not in `ALIKE` are summed by rows.
 
-    def __init__(self, flow: tuple, transport: tuple, n: int, threads: Threads):
-        self.n, self.threads, self.total = n, threads, np.zeros((n, 4))
+    slopes (n, 8) : sums of `positive.Slopes` at the state to be summed. `follow` comes before the first sum.
+    """
+
+    def __init__(self, flow: tuple, transport: tuple, slopes: np.ndarray, threads: Threads):
+        self.n, self.threads, self.slopes, self.stages = len(slopes), threads, slopes, ()
+        self.total = np.zeros((self.n, 4))
         self.rough = next((term for term in flow if isinstance(term, Dissipation)), None)
         carried = tuple(term for term in flow if not isinstance(term, Dissipation))
         # pressure terms leave out the pressure of the row's own point
@@ -167,21 +171,18 @@ class Sending:
         self.once, self.sent = empty_once(0), np.zeros(0, Sent)
 
     def follow(self, edges: Faces) -> None:
-        """Use these edges from now on."""
+        """Sum over these edges from now on."""
         if len(edges.near) != len(self.once.edge):
             self.once = empty_once(len(edges.near))
             self.stirred, self.sent = np.zeros(len(self.once.i), bool), np.zeros(len(self.once.i), Sent)
-        self.edges, count = edges, fill_once(self.n, edges, self.once)
-        self.blocks = -(-int(count)//int(BLOCK))
+        self.blocks = -(-int(fill_once(self.n, edges, self.once))//int(BLOCK))
 
-    def sum(self, points: np.ndarray, slopes: np.ndarray) -> np.ndarray:
-        """Gains of the points, (n, 4), overwritten by the next call. slopes : sums of `positive.Slopes`."""
-        threads, once, sent, total = self.threads, self.once, self.sent, self.total
+    def over_edges(self, at: At) -> None:
+        points, threads, once, sent, total = at.points, self.threads, self.once, self.sent, self.total
         if self.others:
-            threads(sweep, self.n, Listing(self.others), points, self.edges, total)
+            threads(sweep, self.n, Listing(self.others), points, at.edges, total)
         else:
             total.fill(0)
         lines = points.view("f8").reshape(len(points), -1)
         threads(_send, self.blocks, self.terms, self.rough, self.own, points, lines, once, self.stirred, sent)
-        threads(_receive, self.n, self.own, slopes, self.edges, once, sent, total)
-        return total
+        threads(_receive, self.n, self.own, self.slopes, at.edges, once, sent, total)

@@ -108,7 +108,7 @@ class Limits:
         self.excess, self.gain = Excess(Listing(flow)), np.zeros((self.n, 4))
         self.leaves_out = Limited(self.excess, self.method.eos)
         self.slopes, self.fastest = np.zeros((self.n, 8)), np.zeros((self.n, 1))
-        self.sending = Sending(flow, self.method.transport, self.n, self.threads)
+        self.sending = Sending(flow, self.method.transport, self.slopes, self.threads)
 
     @property
     def speeds(self) -> np.ndarray:
