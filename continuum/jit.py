@@ -27,7 +27,7 @@ os.environ.setdefault("NUMBA_CACHE_DIR", str(ROOT / ".numba_cache" / source_hash
 
 import llvmlite.binding  # noqa: E402  (numba reads the cache folder when it is imported)
 import numba  # noqa: E402
-from numba.core import caching, codegen  # noqa: E402
+from numba.core import caching, codegen, cpu  # noqa: E402
 from numba.extending import overload, register_jitable  # noqa: E402
 
 # another module may have imported numba before
@@ -69,14 +69,50 @@ def _finalize_with_own_copies(library: Any) -> None:
 
 setattr(codegen.CPUCodeLibrary, "_finalize_final_module", _finalize_with_own_copies)  # noqa: B010
 
+_set_flags = cpu.CPUTargetOptions.finalize
+
+
+def _set_flags_without_caller(options: Any, flags: Any, given: Any) -> None:
+    """numba's flags of a function: what it leaves open has a default, not the value of its first caller."""
+    for name in ("fastmath", "error_model", "forceinline"):
+        if not flags.is_set(name):
+            setattr(flags, name, getattr(flags, name))
+    _set_flags(options, flags, given)
+
+
+setattr(cpu.CPUTargetOptions, "finalize", _set_flags_without_caller)  # noqa: B010
+
 # not all of fastmath: NaN must stay NaN, since divergence is checked for
 FASTMATH = {"contract", "reassoc", "arcp", "nsz"}
-OPTIONS: dict[str, Any] = {"error_model": "numpy", "fastmath": FASTMATH}
+OPTIONS: Any = {"error_model": "numpy", "fastmath": FASTMATH}
+#: sums in the written order
+ORDERED: Any = {"error_model": "numpy", "fastmath": FASTMATH - {"reassoc"}}
+INLINED: Any = {"forceinline": True}
 
 #: compile, cache on disk, release Python's lock so that threads can share the rows of one loop
 jit = numba.njit(cache=True, nogil=True, **OPTIONS)
 #: four float64 a vector: with eight, code of `jit_records` loses more on packing vectors than it saves
 llvmlite.binding.set_option("fluidized-grid", "-slp-max-reg-size=256")
+#: names of loops over records
+RECORD_LOOPS: set[str] = set()
+
+_optimize = codegen.CPUCodeLibrary._optimize_final_module
+
+
+def _optimize_with_slp(library: Any) -> None:
+    """numba's optimisation, with SLP in loops over records alone: their callees have other callers, too."""
+    config: Any = numba.config
+    before = config.SLP_VECTORIZE, config.LOOP_VECTORIZE
+    if library.name in RECORD_LOOPS:
+        # vectors over several rows would need gather and scatter
+        config.SLP_VECTORIZE, config.LOOP_VECTORIZE = 1, 0
+    try:
+        _optimize(library)
+    finally:
+        config.SLP_VECTORIZE, config.LOOP_VECTORIZE = before
+
+
+setattr(codegen.CPUCodeLibrary, "_optimize_final_module", _optimize_with_slp)  # noqa: B010
 
 
 def jit_records(function: Callable) -> Any:
@@ -85,28 +121,14 @@ def jit_records(function: Callable) -> Any:
     SLP puts equal operations on neighbouring fields into one vector instruction. LLVM 14 miscompiled with it:
     use it only for loops that tests compare with a slow twin. Reassociation gathers fields, twice as slow.
     """
-    compiled: Any = numba.njit(cache=True, nogil=True, error_model="numpy",
-                               fastmath=FASTMATH - {"reassoc"})(function)
-    plain = compiled.compile
-
-    def compile_with_slp(signature):
-        config = numba.config
-        before = config.SLP_VECTORIZE, config.LOOP_VECTORIZE
-        # vectors over several rows would need gather and scatter
-        config.SLP_VECTORIZE, config.LOOP_VECTORIZE = 1, 0
-        try:
-            return plain(signature)
-        finally:
-            config.SLP_VECTORIZE, config.LOOP_VECTORIZE = before
-
-    compiled.compile = compile_with_slp
-    return compiled
+    RECORD_LOOPS.add(function.__qualname__)
+    return numba.njit(cache=True, nogil=True, **ORDERED)(function)
 
 
 def jit_apart(function: Callable) -> Any:
     """Compile for arrays that do not overlap each other, so that loops that read scattered entries of one and
     write to another are vectorised. Both sides of each branch in them must be computable."""
-    compiled: Any = numba.njit(cache=True, nogil=True, forceinline=True, **OPTIONS)(function)
+    compiled: Any = numba.njit(cache=True, nogil=True, **OPTIONS, **INLINED)(function)
 
     def customize(flags):
         flags.noalias = True
@@ -117,7 +139,7 @@ def jit_apart(function: Callable) -> Any:
 
 
 #: plain arithmetic, for numbers, arrays and compiled code alike
-formula = register_jitable(**OPTIONS)
+formula = register_jitable(**OPTIONS, **INLINED)
 
 
 def place(frame: Any) -> str:
@@ -150,7 +172,7 @@ def generic(stub: Callable) -> Any:
                             f"add a formula with @{stub.__name__}.of({type(first).__name__})")
         return chosen(first, *rest)
 
-    @overload(call, strict=False, jit_options=OPTIONS)  # type: ignore[arg-type]
+    @overload(call, strict=False, jit_options=OPTIONS | INLINED)  # type: ignore[arg-type]
     def _(first, *rest):
         return formula_of(getattr(first, "instance_class", None))
 

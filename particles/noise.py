@@ -9,7 +9,7 @@ from numbers import Integral
 import numba
 import numpy as np
 
-from continuum.jit import OPTIONS, jit
+from continuum.jit import INLINED, OPTIONS, jit
 
 u64 = np.uint64
 LOW, HALF = u64(0xFFFFFFFF), u64(32)
@@ -18,7 +18,7 @@ M0, M1, W0, W1 = u64(0xD2511F53), u64(0xCD9E8D57), u64(0x9E3779B9), u64(0xBB67AE
 UNIT = 2.0**-32
 POINT, TWO = u64(1), u64(2)
 #: inlined before loops are vectorised: nine times as fast
-inlined = numba.njit(cache=True, nogil=True, forceinline=True, **OPTIONS)
+inlined = numba.njit(cache=True, nogil=True, **OPTIONS, **INLINED)
 
 
 def check_seed(seed: int) -> None:

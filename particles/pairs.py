@@ -4,7 +4,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from continuum.jit import generic, jit, jit_records, overload
+from continuum.jit import INLINED, ORDERED, generic, jit, jit_records, overload
 from particles.neighbours import ONE, Lists, u32, u64
 from particles.weights import shape, slope
 
@@ -154,14 +154,14 @@ def store(out: np.ndarray, i: int, k: int, values: tuple) -> Any:
     """out[i, k:] = values; out: an array or a Block."""
 
 
-@overload(add)
+@overload(add, jit_options=ORDERED | INLINED)
 def _(one, other):
     if len(one) == 1:
         return lambda one, other: (one[0] + other[0],)
     return lambda one, other: (one[0] + other[0],) + add(one[1:], other[1:])
 
 
-@overload(store)
+@overload(store, jit_options=ORDERED | INLINED)
 def _(out, i, k, values):
     if getattr(out, "instance_class", None) is Block:
         def impl(out, i, k, values):

@@ -22,11 +22,22 @@ WAYS = {"run": lambda: run(GAS, 12, until=UNTIL).fields.cells,
         "py-pde": lambda: solve(Gas(GAS, rows=12), until=UNTIL).state}
 print(*sorted(f"{way} {WAYS[way]().tobytes().hex()}" for way in sys.argv[1:]))
 '''
+POINTS = '''
+import sys
+from particles.limits import limit_of
+from particles.run import Plan, run
+from tests.test_entropy_stable import GAS, VDW, closed, violent
+
+for eos in sys.argv[1:]:
+    method = closed(eos={"ideal": GAS, "vdw": VDW}[eos])
+    state = violent(method)
+    print(run(method, state, Plan(dt=limit_of(method, state), steps=5)).state.tobytes().hex())
+'''
 
 
-def results(cache, *ways: str) -> str:
+def results(cache, *ways: str, script: str = GRIDS) -> str:
     """Bytes of the solutions of a process that solves in these ways, one after the other."""
-    done = subprocess.run([sys.executable, "-c", GRIDS, *ways], capture_output=True, text=True, check=True,
+    done = subprocess.run([sys.executable, "-c", script, *ways], capture_output=True, text=True, check=True,
                           env={**os.environ, "NUMBA_CACHE_DIR": str(cache)})
     return done.stdout
 
@@ -35,6 +46,12 @@ def results(cache, *ways: str) -> str:
 def test_a_cold_and_a_warm_cache_give_the_same_bytes_in_any_order(ways, tmp_path):
     cold = results(tmp_path, *ways)
     assert len(cold) > 1000 and cold == results(tmp_path, *ways) == results(tmp_path, *reversed(ways))
+
+
+def test_formulas_do_not_depend_on_the_loop_that_had_them_compiled_first(tmp_path):
+    # the loops that both fluids share come from disk; formulas had taken options and vectors from them
+    results(tmp_path, "vdw", script=POINTS)
+    assert results(tmp_path, "ideal", script=POINTS) == results(tmp_path/"empty", "ideal", script=POINTS)
 
 
 @pytest.mark.parametrize("first", ["studies.__main__", "studies.front", "studies.judge", "numba"])

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from continuum.fluid import energy, pressure
-from continuum.jit import formula, overload
+from continuum.jit import INLINED, ORDERED, formula, overload
 from particles.pairs import add, pair_term, rate, sweep, zero
 from particles.threads import Threads
 
@@ -89,7 +89,7 @@ def onto(before: tuple, terms: tuple, a: Any, b: Any, ab: Any) -> Any:
     """Add the rates of all terms to a sum."""
 
 
-@overload(onto)
+@overload(onto, jit_options=ORDERED | INLINED)
 def _(before, terms, a, b, ab):
     if len(terms) == 0:
         return lambda before, terms, a, b, ab: before
