@@ -17,13 +17,22 @@ from typing import Any
 
 import numpy as np
 
+from continuum.fluid import energy, pressure
 from particles.fields import Fields, from_densities
-from particles.integral.dih import Dih, EdgeFluxes, Pairwise, densities, gained, take
-from particles.integral.drifts import Crossed, both
+from particles.integral.dih import Dih, EdgeFluxes, Flow, Pairwise, densities, gained, take
+from particles.integral.drifts import Crossed
 from particles.integral.edge_makers import from_weights, judged
 from particles.integral.edges import Edges
 from particles.integral.interpolants import check
 from particles.integral.points import Points, of_positions, wrapped
+
+
+def pressures(bracket: Any, eos: Any, a: Flow, b: Flow) -> tuple[np.ndarray, np.ndarray]:
+    """(P_ab, P_ba) of Eq. 13 or 50; written apart from the compiled formulas, which tests compare with it."""
+    if isinstance(bracket, Crossed):
+        return pressure(eos, a.rho, energy(eos, a.rho, b.T)), pressure(eos, b.rho, energy(eos, b.rho, a.T))
+    m, n = bracket
+    return b.P/(b.rho**m*a.rho**n), a.P/(a.rho**m*b.rho**n)
 
 
 def convected(edges: Edges, v: np.ndarray, fields: np.ndarray) -> np.ndarray:
@@ -151,7 +160,7 @@ class ConstantMass(Motion):
         dih = self.fluid(state[:d].T, V)
         flow, edges = dih.flow(state[d:-1]/V), dih.edges
         a, b, half = take(flow, edges.i), take(flow, edges.j), edges.S/2
-        P_ab, P_ba = both(self.bracket, self.eos, a, b)
+        P_ab, P_ba = pressures(self.bracket, self.eos, a, b)
         to_a, to_b = (half*a.v).sum(axis=1), (half*b.v).sum(axis=1)
         pushed = EdgeFluxes(np.zeros(len(half)), half*(P_ab + P_ba)[:, None], P_ab*to_a + P_ba*to_b)
         out[d:-1] = gained(edges, pushed, self.transport.fluxes(dih, flow))
