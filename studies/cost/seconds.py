@@ -48,20 +48,6 @@ def per_step(advance: Callable[[int], Any], short: float = SHORT, clock: Clock =
     return median(more)*(0.5/steps)
 
 
-class Laps:
-    """Clock readings of each call, as the progress report of a run. at : the readings."""
-
-    def __init__(self, clock: Clock = process_time) -> None:
-        self.clock, self.at = clock, list[float]()
-
-    def __call__(self, fraction: float) -> None:
-        self.at.append(self.clock())
-
-    def total(self, count: int) -> Measured:
-        """Seconds of `count` laps, each of median length."""
-        return median(np.diff(self.at))*count
-
-
 # --- many points --------------------------------------------------------------------------------------------
 
 
@@ -79,14 +65,14 @@ class Flock(NamedTuple):
 
     def laps(self, count: int, clock: Clock) -> np.ndarray:
         """Seconds of a step in each of `count` laps; one lap more before them does not count."""
-        laps, steps = Laps(clock), WARM*(count + 1)
+        at, steps = list[float](), WARM*(count + 1)
         plan = Plan(dt=self.dt, steps=steps, threads=self.threads, every=WARM)
 
         def progress(done: float) -> None:
             if round(done*steps) % WARM == 0:       # some methods report after fewer steps
-                laps(done)
+                at.append(clock())
         run(self.method, self.start, plan, progress)
-        return np.diff(laps.at)/WARM
+        return np.diff(at)/WARM
 
 
 class StepTime(Case, table="growth", same="method"):

@@ -1,6 +1,7 @@
 """Contestants that are solved in one call: the spectral gas, and py-pde in the vortex and in convection."""
 from functools import cache, partial
 from pathlib import Path
+from time import process_time
 from typing import Any
 
 import numpy as np
@@ -20,10 +21,9 @@ from studies.cost.contestants import KNOWN, decay
 from studies.cost.problem import Residuals, Result, relative, rms
 from studies.cost.race import Race
 from studies.cost.rolls import END, OFTEN, Followed, HeatedLayer, unit
-from studies.cost.seconds import Laps
 from studies.kit.case import Outcome, Report
 from studies.kit.stats import Measured, with_errors
-from studies.kit.timing import of_calls
+from studies.kit.timing import median, of_calls
 
 SAMPLES = 5         # of the seconds of py-pde in the vortex, one for each equal part of a run
 
@@ -157,10 +157,11 @@ class SolverRace(Race):
     """
 
     def run(self, report: Report, folder: Path) -> Outcome:
-        gas, laps = self.made(), Laps()
-        end = pypde.solve(gas, until=gas.until, start=gas.begun(), dt=gas.step_limit(), progress=laps)
+        gas, at = self.made(), list[float]()
+        end = pypde.solve(gas, until=gas.until, start=gas.begun(), dt=gas.step_limit(),
+                          progress=lambda done: at.append(process_time()))
         set_up = of_calls(lambda: self.made().begun())
-        seconds = with_errors(run_s=laps.total(gas.until.samples), setup_s=set_up)
+        seconds = with_errors(run_s=median(np.diff(at))*gas.until.samples, setup_s=set_up)
         row = {**self.columns, "points": gas.grid.num_cells, "of_limit": 1.0, "dt": np.nan,
                "steps": end.steps, **seconds}
         return Outcome({"errors": list(self.errors(gas.result(end), gas.known)), "runs": [row]})
