@@ -36,8 +36,7 @@ RAYLEIGH = (2500.0, 3000.0, 3500.0, 5000.0, 10_000.0, 20_000.0, 50_000.0)
 
 def cases(size: str) -> list[Case]:
     """All cases of a size; `quick` only tries out that everything runs."""
-    chosen = quick if size == "quick" else paper
-    return list(chosen())
+    return list(quick() if size == "quick" else paper())
 
 
 def quick() -> Iterator[Case]:

@@ -97,23 +97,11 @@ def sums(weight: Any, lattice: Lattice, k: np.ndarray) -> Sums:
     return float(w.sum() + value_and_slope(weight, 0.0)[0]), S, D
 
 
-def derivatives(weight: Any, r: float, step: float = 1e-5) -> tuple[float, float, float]:
+def derivatives(weight: Any, r: float) -> tuple[float, float, float]:
     """w, w'/r and w'' at r; w'' by a central difference, good to 1e-9."""
-    w, slope = value_and_slope(weight, r)
-    low, high = r - step, r + step
-    change = value_and_slope(weight, high)[1]*high - value_and_slope(weight, low)[1]*low
-    return w, slope, change/(2*step)
-
-
-def matrices(of_unit: Sums, eos: Any, e: float, m: float = 1.0) -> np.ndarray:
-    """M (n, 2, 2) at the wave vectors of the sums."""
-    rho, S, D = of_unit
-    rho *= m
-    P = pressure(eos, rho, e)
-    by_rho, by_e = pressure_slopes(eos, rho, e)
-    c2 = float(by_rho + P/rho**2*by_e)      # negative where the fluid itself is unstable
-    SS = np.einsum("ka,kb->kab", S, S)
-    return (m/rho)**2*(c2 - 2*P/rho)*SS + 2*m*P/rho**2*D
+    step = 1e-5
+    after, before = (value_and_slope(weight, at)[1]*at for at in (r + step, r - step))
+    return *value_and_slope(weight, r), (after - before)/(2*step)
 
 
 # --- a lattice of some fluid ------------------------------------------------------------------------
@@ -144,7 +132,13 @@ class Crystal:
 
     def matrices(self, k: np.ndarray) -> np.ndarray:
         """M (n, 2, 2) at wave vectors k (n, 2)."""
-        return matrices(sums(self.weight.of(h=self.h), self.lattice, k), self.eos, self.e, self.rho)
+        n, S, D = sums(self.weight.of(h=self.h), self.lattice, k)
+        m, rho = self.rho, self.rho*n
+        P = pressure(self.eos, rho, self.e)
+        by_rho, by_e = pressure_slopes(self.eos, rho, self.e)
+        c2 = float(by_rho + P/rho**2*by_e)      # negative where the fluid itself is unstable
+        SS = np.einsum("ka,kb->kab", S, S)
+        return (m/rho)**2*(c2 - 2*P/rho)*SS + 2*m*P/rho**2*D
 
     def squares(self, k: np.ndarray) -> np.ndarray:
         """omega^2 (n, 2) of both motions at wave vectors k (n, 2), the slower one first."""

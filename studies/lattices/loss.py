@@ -37,7 +37,7 @@ from studies.build.spam import TODAY, VARIANTS, Variant
 from studies.kit.case import Case, Report
 from studies.kit.csvfile import read
 from studies.kit.fits import power_law
-from studies.kit.stats import Measured, combine, with_errors
+from studies.kit.stats import Measured, with_errors
 from studies.kit.store import RESULTS
 from studies.kit.table import Row, Rows, Tables, groups
 from studies.lattices.stirred import MAKERS
@@ -58,9 +58,7 @@ class Thickened(Case, table="thickened", same="ra"):
     """The grid's steady layer at an Ra, and in gases more viscous by THICK."""
     ra: float
 
-    @property
-    def cost(self) -> float:
-        return 12.0
+    cost = 12.0
 
     def measure(self, report: Report) -> Iterator[Row]:
         for thick in (x for x in THICK if self.ra/x > FLOWS):
@@ -82,7 +80,7 @@ def strained(fields: Any, thick: float) -> tuple[np.ndarray, np.ndarray, float, 
     def up(q: np.ndarray) -> np.ndarray:
         return np.gradient(q, h, axis=0, edge_order=2)
     rate = np.hypot(along(vx) - up(vy), along(vy) + up(vx))
-    weight = np.full(vx.shape, 1.0)
+    weight = np.ones_like(vx)
     weight[[0, -1]] = 0.5
     ke = 0.5*(weight*rho*(vx**2 + vy**2)).sum()/(weight*rho).sum()
     return rate, rho*T, fields.scene.nu/thick, weight, float(ke)
@@ -166,19 +164,16 @@ def gain(b: float, ra: float) -> float:
     return (1 - least/ra)/(1 - usual/ra)*whole/loss
 
 
-def slips(driven: pd.DataFrame) -> dict[str, Measured]:
+def slips(driven: pd.DataFrame) -> pd.Series:
     """Slip lengths in spacings, by what is behind the plates."""
     plates = driven.query("mode == 'plates' and h == 3")
-    return {walls: combine([(b, 0.0) for b in runs.slip]) for walls, runs in groups(plates, "walls")}
+    return plates.groupby("walls").slip.mean()
 
 
-def length(slip: dict[str, Measured], kind: Variant) -> float:
-    """Slip length of a variant; nan where it was not measured."""
-    if kind.name in MAKERS:
-        return 0.0
-    rows = kind.walls.__name__ == "fixed_rows"
-    name = "images_odd" if kind.moves else "fixed_rows" if rows else "images"
-    return slip[name].value if name in slip else np.nan
+def length(slip: pd.Series, kind: Variant) -> float:
+    """Slip length of a variant, whatever the pressure of its images; nan where it was not measured."""
+    walls = kind.walls.__name__.removesuffix("_own")
+    return 0.0 if kind.name in MAKERS else slip.get(walls, np.nan)
 
 
 # --- K --------------------------------------------------------------------------------------------
@@ -211,8 +206,9 @@ def thicker(layer: pd.DataFrame, x: float) -> float:
 def foretold(tables: Tables, known: dict[str, Law]) -> Iterator[Row]:
     """Predicted and measured K of runs in `results/rb`, where law, slip and the layer of the Ra are known."""
     layers, slip = dict(groups(tables["thickened"], "ra")), slips(tables["driven"])
-    usual = measured().query("eos == 'ideal' and transport == 'const-eta' and pr == 1 and "
-                             f"sides == 'periodic' and resolution >= {LEAST} and variant not in @FAR")
+    usual = read(RESULTS/"rb"/"errors.csv").query(
+        "method == 'spam' and energy == 'Kg' and eos == 'ideal' and transport == 'const-eta' and pr == 1 "
+        "and sides == 'periodic' and resolution >= @LEAST and variant not in @FAR")
     for _, one in usual[usual.variant.isin(KINDS) & usual.ra.isin(layers)].iterrows():
         name, kind, law = one.variant, KINDS[one.variant], known.get(family(one.variant))
         b = length(slip, kind)
@@ -221,11 +217,6 @@ def foretold(tables: Tables, known: dict[str, Law]) -> Iterator[Row]:
         x, bulk, K, err = with_slip(layers[one.ra], law, 1 - kind.fraction, b/one.resolution, one.ra)
         yield {"variant": name, "ra": one.ra, "rows": one.resolution, "x": x, "slip": b, "bulk": bulk,
                **with_errors(predicted=Measured(K, err), measured=Measured(1 + one.error, one.error_err))}
-
-
-def measured() -> pd.DataFrame:
-    """Errors of Kg of smooth particles from the study rb."""
-    return read(RESULTS/"rb"/"errors.csv").query("method == 'spam' and energy == 'Kg'")
 
 
 def with_slip(layer: pd.DataFrame, law: Law, left: float, b: float,

@@ -10,7 +10,7 @@ U v(x), whose stress is n eta k U d(x). A run gives a flow A v(x), and three amp
 A fluid has none of these: M_i = sum_j V_j r_ji grad w is the unit matrix there, so that P M_i is a pressure.
 """
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -192,10 +192,9 @@ class Stirred(Case, table="driven", same="variant mode rows U thick seed"):
         eta = ETA*self.thick*self.rows
         kind = Layer if self.mode is PLATES else Tile
         scene = kind(width=float(self.width), L=float(self.rows), law=ConstEta(eta, eta))
-        plain = spam.method(scene, self.variant)
-        values = {one.name: getattr(plain, one.name) for one in fields(Spam)}
-        values["transport"] = PUSHED[self.variant.transport]
-        return Driven(**values, mode=self.mode, U=self.U)
+        plain = vars(spam.method(scene, self.variant))
+        pushed = plain | {"transport": PUSHED[self.variant.transport]}
+        return Driven(**pushed, mode=self.mode, U=self.U)
 
     def measure(self, report: Report) -> Iterator[Row]:
         method = self.method
