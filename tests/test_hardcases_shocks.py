@@ -17,7 +17,6 @@ from studies.hardcases import high_ra, printed
 from studies.hardcases.cases import IN_LAYERS, trial
 from studies.hardcases.columns import COLUMNS
 from studies.hardcases.derive import derive
-from studies.hardcases.high_ra import no_report
 from studies.hardcases.impacts import DENSE, EOS, GAMMA, HOT, THIN, Strip, pitot
 from studies.hardcases.printed import divide, gases, impulse, ripple
 from studies.hardcases.runs import copied, followed
@@ -89,7 +88,7 @@ def test_a_limit_is_found_where_runs_turn_bad_and_each_runs_once(monkeypatch):
         return high_ra.Attempt(0.01*(1 if ra < 2e5 else 1.5), 1.0 if ra < 3e6 else 0.5)
     monkeypatch.setattr(high_ra, "should_be", lambda ra: 0.01)
     case = high_ra.HighRa(method="made up", attempt=attempt, variant=None, seed=1)
-    rows = {row["kind"]: row for row in case.run(no_report, None).rows["high_ra"]}
+    rows = {row["kind"]: row for row in case.run(lambda done: None, None).rows["high_ra"]}
     assert rows["wrong"]["ra"] == pytest.approx(2e5, rel=0.01)
     assert rows["ends"]["ra"] == pytest.approx(3e6, rel=0.01)
     assert all(0 < row["ra_err"] < 0.01*row["ra"] for row in rows.values())

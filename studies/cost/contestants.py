@@ -13,12 +13,12 @@ from continuum.exact.vortex import DECAYS, RE, solved
 from continuum.gas.ghosts import RHO
 from particles.fields import Fields
 from particles.integral.points import lattice
-from particles.observe import fields_at
 from particles.smooth.spam import Spam
 from studies.build import answer, of_one_mass, with_rows
 from studies.build.scenes import BetweenPlates, TaylorGreen
 from studies.build.setting import Ready
 from studies.cost.problem import Judge, Problem, Residuals, Result, of_grid, of_method, relative, rms
+from studies.front.observed import seen
 
 #: uncertainty of the Fourier sums by Mach number: change of velocities from 29 to 33 points along each axis
 KNOWN = {0.05: 1.4e-6, 0.2: 2.9e-5}
@@ -137,12 +137,8 @@ def trembling(flow: ExactFlow, method: Any, size: int, seed: int) -> Problem:
 
 def smoothed(method: Spam, state: np.ndarray) -> Fields:
     """The smoothed fields at the particles, with equal volumes."""
-    sums, ordered, _ = method.look(state)
-    x, y, *_ = state
-    at = fields_at(sums, ordered, x, y)
-    v = np.stack([at.vx, at.vy], axis=1)
-    V = np.full(len(x), 1/len(x))
-    return Fields(state[:2].T, v, at.rho, at.T, V)
+    n = state.shape[1]
+    return seen(method, state)._replace(V=np.full(n, 1/n))
 
 
 # --- grids --------------------------------------------------------------------------------------------------

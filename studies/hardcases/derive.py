@@ -159,8 +159,7 @@ def of_trials(trials: pd.DataFrame) -> Iterator[Row]:
 
 def needs(rows: pd.DataFrame) -> Iterator[Row]:
     """Outcomes of the same edges in the same case without and with the entropy-stable flux."""
-    outcomes = {(case, variant, method): outcome for case, variant, method, outcome
-                in rows[["case", "variant", "method", "outcome"]].to_numpy()}
+    outcomes: dict[Any, str] = rows.set_index(["case", "variant", "method"]).outcome.to_dict()
     for (case, variant, method), outcome in outcomes.items():
         if other := outcomes.get((case, variant, HELD_TOO.get(method, ""))):
             yield {"case": case, "method": method, "variant": variant, "without": outcome, "listed": other,

@@ -72,12 +72,8 @@ def on_grid(rows: int, ra: float, seed: int, step: float) -> Attempt:
     start = initial(scene, rows, START_ENERGY)
     dt = step*SAFETY*step_limit(scene, block(start))
     start = replace(start, cells=start.cells*ripple(seed, *start.cells.shape))
-    done, reached = between_plates(start, falls(scene, TIME), no_report, dt)
+    done, reached = between_plates(start, falls(scene, TIME), lambda part: None, dt)
     return Attempt(done.series.ke[late(done.series.ke)].mean() if done else np.nan, reached)
-
-
-def no_report(done: float) -> None:
-    """Ignore the progress of a run: that of the search is unknown."""
 
 
 @cache

@@ -17,7 +17,6 @@ from studies.hardcases.printed import BELOW, HEAVY, LIGHT, TALL, WIDTH, Impulse,
 
 EOS, GAMMA = IdealGas(cv=2.5), 1.4
 DENSE, THIN = GasState(1.0, 0.0, 1.0), GasState(0.125, 0.0, 0.1)       # of Sod's tube
-NAMES = ("rho", "v", "P")
 HEIGHT = 9.0
 SHIFT = 0.05        # largest shift over the cell: a perfect lattice keeps its rows in such a flow
 WINDOW, EVEN, CLOSED = 0.5, 1.8, 2.0        # ends of window, uniform gas, strip: units from the middle
@@ -232,4 +231,4 @@ class Strip(Scene):
                for side in flat if side.any()]
         return {"measured": float(errors.max()*self.cells), "wiggles": wiggles(*level),
                 "plateau": float(np.abs(off).max(initial=0)),
-                **dict(zip((f"{name}_exact" for name in NAMES), map(float, errors)))}
+                **dict(zip(("rho_exact", "v_exact", "P_exact"), map(float, errors)))}

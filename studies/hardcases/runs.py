@@ -26,7 +26,7 @@ from studies.build.names import START_JITTER
 from studies.build.scenes import Start, Tile
 from studies.build.setting import Ready, positions
 from studies.build.spam import Variant
-from studies.kit.case import Case, Outcome, Report
+from studies.kit.case import Case, Outcome, Report, word
 
 SAMPLES = 60
 GRID = "grid"
@@ -74,8 +74,7 @@ class Hard(Case):
 
     @property
     def label(self) -> str:
-        words = [f"{value:g}" if isinstance(value, float) else str(value) for value in self.which.values()]
-        return f"{self.into} {', '.join(words)}"
+        return f"{self.into} {', '.join(map(word, self.which.values()))}"
 
     def run(self, report: Report, folder: Path) -> Outcome:
         try:
