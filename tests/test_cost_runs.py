@@ -11,16 +11,7 @@ from studies.build import variant
 from studies.cost import tables
 from studies.cost.cases import CONTESTS
 from studies.cost.problem import HALVINGS, STRETCH, STRETCHES, WORTH, Problem, Result, best, climb, rms
-from studies.cost.rolls import (
-    END,
-    OFTEN,
-    SETTLED,
-    Followed,
-    HeatedLayer,
-    compared,
-    extended,
-    reference,
-)
+from studies.cost.rolls import END, OFTEN, SETTLED, Followed, HeatedLayer, compared, extended, reference
 from studies.cost.seconds import Flock, TwoThreads, per_step
 from studies.cost.tables import GRID, MAC, NEAREST, PYPDE, growth_laws
 

@@ -3,23 +3,10 @@ from typing import Any
 
 import numpy as np
 
-from studies.cost.tables import (
-    CARRIED,
-    GRID,
-    JITTERED,
-    LAMMPS,
-    LATTICE,
-    LUCY,
-    MAC,
-    MOVING,
-    NEAREST,
-    PYPDE,
-    WIDE,
-)
+from studies.cost.tables import CARRIED, FIXED, GRID, LAMMPS, LUCY, MAC, MOVING, PYPDE, WIDE
 from studies.kit.ask import Value, bench, first, largest_per, last, least, one
 from studies.kit.claim import Claim
 
-FIXED = (NEAREST, LATTICE, WIDE, JITTERED)
 K = {"scene": "convection", "quantity": "K"}
 LOWER_K = {"scene": "convection-5000", "quantity": "K"}
 VORTEX = {"scene": "taylor-green", "quantity": "velocity"}

@@ -22,15 +22,15 @@ SPECTRAL = "spectral-gas"
 NEAREST = "fixed-lattice-h1.2"
 LATTICE = "fixed-lattice"
 WIDE = "fixed-lattice-h3"
-JITTERED = "fixed-jittered-plates"
+FIXED = NEAREST, LATTICE, WIDE, "fixed-jittered-plates"
 LUCY = "spam"
 MOVING = "moving"
 CARRIED = "moving-delaunay"
 #: scene of another fluid, which `bench` runs; LAMMPS' styles there -> their names here
 BOUSSINESQ, LAMMPS = "boussinesq", {"sph": "LAMMPS sph", "rheo": "LAMMPS RHEO"}
-METHODS = (GRID, MAC, PYPDE, SPECTRAL, NEAREST, LATTICE, WIDE, JITTERED, "fixed-jittered-delaunay",
-           "fixed-jittered-0.2-plates", LUCY, "spam-monaghan", "spam-wendland-c2", "spam-less-static-50",
-           "spam-corrected", "spam-sumB", CARRIED, MOVING, *LAMMPS.values())
+METHODS = (GRID, MAC, PYPDE, SPECTRAL, *FIXED, "fixed-jittered-delaunay", "fixed-jittered-0.2-plates", LUCY,
+           "spam-monaghan", "spam-wendland-c2", "spam-less-static-50", "spam-corrected", "spam-sumB", CARRIED,
+           MOVING, *LAMMPS.values())
 
 RUN = "scene method resolution seed"
 SERIES = "scene quantity method"
@@ -82,7 +82,6 @@ LEAST = 3           # least number of sizes for an exponent
 A_RUN, A_SERIES = RUN.split(), SERIES.split()
 RUNG = ["scene", "method", "resolution"]
 MEANS = ("error", "cpu_s", "setup_s", "points")
-NOTHING = pd.DataFrame()
 
 
 def derived(tables: Tables) -> Rows:
@@ -91,7 +90,7 @@ def derived(tables: Tables) -> Rows:
     if "growth" in tables:
         rows["growth_laws"] = list(growth_laws(tables["growth"]))
     if {"errors", "runs"} <= tables.keys():
-        ours = over_seeds(tables["errors"], tables["runs"], tables.get("steps", NOTHING))
+        ours = over_seeds(tables["errors"], tables["runs"], tables.get("steps", pd.DataFrame()))
         points = pd.concat([ours, pd.DataFrame(lammps())])
         rows |= {"points": points.to_dict("records"), "needed": list(needed(points)),
                  "rivals": list(rivals(points))}

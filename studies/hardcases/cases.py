@@ -11,16 +11,7 @@ from studies.build.spam import PRINTED, Variant
 from studies.build.stable import BODIES
 from studies.hardcases import columns, extremes, high_ra, impacts, runs
 from studies.hardcases.columns import BLENDED, CARRIED, COLUMNS, EDGES, HELD, JITTERED, LATTICE, PAIRS, STABLE
-from studies.hardcases.extremes import (
-    ALTERNATING,
-    CHESSBOARD,
-    LAYERS,
-    ROWS,
-    SITUATIONS,
-    UNEVENNESS,
-    OnGrid,
-    falls,
-)
+from studies.hardcases.extremes import ALTERNATING, CHESSBOARD, LAYERS, ROWS, SITUATIONS, OnGrid, falls
 from studies.hardcases.high_ra import HighRa
 from studies.hardcases.printed import Interface, Square
 from studies.hardcases.runs import GRID, By, Hard, without_plates
@@ -147,8 +138,8 @@ def hard() -> Iterator[Case]:
         later = time*falls(scene, 1.0)/falls(small, 1.0)
         yield from (survival(case, name, chosen, scene, later) for name, chosen in variants(*CHEAP).items())
     for method, entrant in ALTERNATE.items():
-        yield Hard(into="probes", which={"case": ALTERNATING, "method": method}, question=UNEVENNESS,
-                   entrant=By(without_plates, entrant), scene=CHESSBOARD, time=300.0)
+        yield Hard(into="probes", which={"case": ALTERNATING, "method": method}, scene=CHESSBOARD, time=300.0,
+                   entrant=By(without_plates, entrant), question=extremes.UNEVENNESS)
 
 
 def flows() -> Iterator[Case]:

@@ -1,23 +1,11 @@
 """Claims about where methods break."""
 from continuum.fluid import DenseFluid, IdealGas
 from studies.hardcases.columns import BLENDED, EDGES, HELD, PAIRS, STABLE
-from studies.kit.ask import (
-    Value,
-    bench,
-    farthest,
-    largest,
-    largest_of,
-    last,
-    least,
-    of,
-    one,
-    power,
-    rows,
-    total,
-)
+from studies.kit.ask import bench, farthest, largest, largest_of, last, least, one, power, total
 from studies.kit.claim import Claim
 from studies.kit.stats import CannotTell, Measured
 from studies.kit.table import Tables
+from studies.kit.value import Value, of, rows
 
 # --- the square of Fig. 10 ------------------------------------------------------------------------
 
