@@ -99,8 +99,7 @@ def test_a_limit_is_found_where_runs_turn_bad_and_each_runs_once(monkeypatch):
     (((1e4, 1.0), (1e5, 1.0)), np.nan, np.nan, "none"),
     (((4e4, 1.0), (1e4, 1.0), (9e4, 0.3), (2e5, 1.0), (1e6, 0.1)), 6e4, 2.5e4, "ends")])
 def test_a_limit_is_the_first_bad_trial_though_later_ones_are_good(trials, ra, err, outcome):
-    search = high_ra.Search(None)
-    search.trials = {ra: high_ra.Attempt(0.01, reached) for ra, reached in trials}
+    search = high_ra.Search(None, {ra: high_ra.Attempt(0.01, reached) for ra, reached in trials})
     limit = search.limit(search.ends, 1e8)
     assert limit == pytest.approx({"ra": ra, "ra_err": err, "tried": max(trials)[0], "outcome": outcome},
                                   nan_ok=True)

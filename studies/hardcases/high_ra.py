@@ -8,7 +8,7 @@ v a/nu of the free-fall velocity, (Ra/Pr)^(1/2)/16. K is judged up to Ra 1e6 onl
 known to reach its end beyond. All is repeated with shorter steps, since v grows after the step is chosen.
 """
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cache
 from math import log
 from pathlib import Path
@@ -90,12 +90,11 @@ def should_be(ra: float) -> float:
     return float(np.interp(ra**-0.5, x[::-1], k[::-1]))
 
 
+@dataclass
 class Search:
     """Search for limits of Ra. trials : Ra -> result of attempt(ra), which is called once for each Ra."""
-
-    def __init__(self, attempt: Callable[[float], Attempt]):
-        self.attempt = attempt
-        self.trials: dict[float, Attempt] = {}
+    attempt: Callable[[float], Attempt]
+    trials: dict[float, Attempt] = field(default_factory=dict)
 
     def at(self, ra: float) -> Attempt:
         """The run at a Rayleigh number, which is rounded to nine digits so that RUNGS are found again."""
