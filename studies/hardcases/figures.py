@@ -58,7 +58,8 @@ def chart(rows: pd.DataFrame) -> Figure:
     rows = rows.drop_duplicates(["case", "method"], keep="last")
     rows = rows[rows.groupby("method").case.transform("nunique") >= MANY]
     rows = rows[rows.groupby("case").method.transform("nunique") >= PAIR]
-    methods = sorted(set(rows.method), key=lambda name: (name.endswith(LISTED), *place_of(name)))
+    order = [*TRIED, *sorted({*rows.method} - {*TRIED})]
+    methods = sorted(set(rows.method), key=lambda name: (name.endswith(LISTED), order.index(name)))
     cases = [case for case in CASES if case in set(rows.case)]
     shades = rows.pivot(index="case", columns="method", values="shade").loc[cases, methods]
     page, axes = figure(width=7.4, height=2.6 + 0.2*len(cases))
@@ -79,11 +80,6 @@ def chart(rows: pd.DataFrame) -> Figure:
     page.suptitle(f"Without the entropy-stable flux {ends[0]} cells end early, with it {ends[1]}")
     page.supxlabel(fill(KEY, 112), fontsize=8, x=0.01, ha="left")
     return page
-
-
-def place_of(method: str) -> tuple[int, str]:
-    """Key to sort methods by: those of the trials first, in their order."""
-    return TRIED.index(method) if method in TRIED else len(TRIED), method
 
 
 def tenths(error: float) -> str:

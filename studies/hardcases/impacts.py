@@ -190,15 +190,12 @@ class Strip(Scene):
         states = (left, right, *(GasState(rho, v, P) for rho in densities))
         return max(abs(gas.v) + (GAMMA*gas.P/gas.rho)**0.5 for gas in states)
 
-    def gases(self, x: np.ndarray) -> np.ndarray:
-        """rho, v, P (3, n) at the start."""
-        left, right = (np.array(gas)[:, None] for gas in self.problem[:2])
-        over = np.clip((np.abs(x)/self.cells - EVEN)/(CLOSED - EVEN), 0, 1)/2
-        own, other = np.where(x < 0, left, right), np.where(x < 0, right, left)
-        return (own + over*(other - own))/np.array([[left[0, 0]], [1.0], [left[0, 0]]])
-
     def fields(self, x: np.ndarray) -> Start:
-        rho, v, P = self.gases(x[:, 0])
+        along, unit = x[:, 0], self.problem.left.rho
+        left, right = (np.array(gas)[:, None] for gas in self.problem[:2])
+        over = np.clip((np.abs(along)/self.cells - EVEN)/(CLOSED - EVEN), 0, 1)/2
+        own, other = np.where(along < 0, left, right), np.where(along < 0, right, left)
+        rho, v, P = (own + over*(other - own))/np.array([[unit], [1.0], [unit]])
         return rho, np.stack([v, 0*v], axis=1), P/rho
 
     def of_one_mass(self, seed: int) -> tuple[np.ndarray, Start]:

@@ -79,12 +79,9 @@ class LatticeMotion(NamedTuple):
     rate: float
 
 
-#: lattice sums of unit masses: density, S (n, 2) and D (n, 2, 2) at n wave vectors
-Sums = tuple[float, np.ndarray, np.ndarray]
-
-
-def sums(weight: Any, lattice: Lattice, k: np.ndarray) -> Sums:
-    """Lattice sums at wave vectors k (n, 2), as `particles.limits` has them for the square lattice."""
+def sums(weight: Any, lattice: Lattice, k: np.ndarray) -> tuple[float, np.ndarray, np.ndarray]:
+    """Density, S (n, 2) and D (n, 2, 2) of unit masses at wave vectors k (n, 2), as `particles.limits` has
+    them for the square lattice."""
     x = lattice.neighbours(weight.h)
     r = np.hypot(*x.T)
     w, slope, curvature = np.array([derivatives(weight, one) for one in r]).T
