@@ -118,7 +118,7 @@ SPACINGS = 4        # width of a cell over which velocities are averaged: their 
 
 def late(values: Any) -> slice:
     """Slice of the last third of the samples, the start being the first one."""
-    return slice(min(round(LATE*len(values)), len(values) - 1), None)
+    return slice(round(LATE*len(values)), None)
 
 
 def flow(at: Fields, box: tuple[float, float]) -> float:

@@ -27,11 +27,11 @@ from studies.build.scenes import Start, Tile
 from studies.build.setting import Ready, positions
 from studies.build.spam import Variant
 from studies.kit.case import Case, Outcome, Report, word
+from studies.kit.table import Row
 
 SAMPLES = 60
 GRID = "grid"
 THIN = 1e-3         # density in place of vacuum, for methods whose points fill the box
-Row = dict[str, Any]
 Watch = tuple[tuple[str, Quantity], ...]
 
 
