@@ -221,7 +221,7 @@ def switching(scene: Any, course: Course) -> Row:
 
 
 def smooth_error(scene: Any, course: Course) -> Row:
-    """Rms error of velocities over the fastest of the start; K of convection, whose flow is not known."""
+    """Rms error of velocities over the largest exact one; K of convection, whose flow is not known."""
     first, last = course.seen[0], course.seen[-1]
     known, exact = (velocities(scene, at) for at in (first, last))
     if not known.any():

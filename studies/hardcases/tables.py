@@ -41,7 +41,7 @@ TABLES = (
                                 "exact one", "")}),
     Table.of("smooth_flows", "scene method rows", "value",
              about="A smooth flow by the same edges with and without the entropy-stable flux.",
-             means={"value": ("K of convection; rms error of velocities over the fastest of the start", "")}),
+             means={"value": ("K of convection; rms error of velocities over the largest exact one", "")}),
     Table.of("map", "case method variant", "number predicted measured measured_err outcome",
              about="The verdict on a method in a hard case.",
              means={"variant": ("which runs of the case", ""),
