@@ -50,27 +50,18 @@ def beside(tried: Sequence[Any], here: Tables, others: Tables) -> Iterator[str]:
     """K of cases, then of others of their kind with the nearest rows, and the grid's; the largest first."""
     points = pd.DataFrame([one.point for one in tried])[[*SAME, "resolution"]].drop_duplicates()
     points["resolution"] = points.resolution.astype(float)
-    known = means(others).merge(points, how="left", indicator="own").query("own == 'left_only'")
+    ours, known = (tables.rows(frames, "means", **tables.scene(RA)) for frames in (here, others))
+    known = known.merge(points, how="left", indicator="own").query("own == 'left_only'")
     limit = known.query("method == 'compressible' and variant == 'flux-form' and resolution == inf")
     right = limit.ke_field.max()
     yield f"K of the flow (smooth particles: Kg) at Ra {RA:g}, Pr 1, run now; +- : half of the 95 % interval"
-    yield from lines(means(here).merge(points, how="right"), right)
+    yield from lines(ours.merge(points, how="right"), right)
     yield "beside it, from the tables, the largest K first: its kin with the nearest rows, means over seeds;"
     yield "limit: the grid's K at infinitely many rows, which is the right one; %: off this limit"
     kin = known[known.method.isin(points.method) & np.isfinite(known.resolution)]
     apart = (kin.resolution - points.resolution.iloc[0]).abs()
     nearest = kin.loc[apart.sort_values(kind="stable").index].drop_duplicates(SAME)
     yield from lines(pd.concat([nearest, limit]), right)
-
-
-def means(frames: Tables) -> pd.DataFrame:
-    """Rows of the table in the scene of `own`; none where there is no table."""
-    columns = [*tables.POINT, "ke_field", "ke_field_err"]
-    frame = frames["means"] if "means" in frames else pd.DataFrame(columns=columns)
-    where = tables.scene(RA)
-    return frame.loc[(frame[list(where)] == pd.Series(where)).all(axis=1), columns]
-
-
 def lines(frame: pd.DataFrame, right: float) -> Iterator[str]:
     """Rows, K with its error and how far it is off, words for the method; the largest K first."""
     columns = [*SAME, "resolution", "ke_field", "ke_field_err"]

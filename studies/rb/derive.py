@@ -12,6 +12,7 @@ from studies.kit.stats import Measured, combine, with_errors
 from studies.kit.table import Rows, Tables
 from studies.rb.snapshots import field_errors, snapshots
 from studies.rb.tables import POINT, SCENE, STILL
+from studies.rb.tables import rows as rows_of
 
 Row = dict[Any, Any]
 GRIDS = ("compressible", "boussinesq", "pypde-compressible")
@@ -138,8 +139,7 @@ def in_space(tables: Tables) -> Iterator[Row]:
     finest run.
     """
     by = "method variant start ra".split()
-    none = pd.DataFrame(columns=[*by, "resolution"])
-    runs = finite(tables["three_dimensions"]) if "three_dimensions" in tables else none
+    runs = finite(rows_of(tables, "three_dimensions"))
     for key, group in runs.sort_values("resolution").groupby(by):
         if len(group) < 3 or np.ptp(group.across) > SAME_PATTERN:
             continue
@@ -162,7 +162,6 @@ def errors(runs: pd.DataFrame, means: pd.DataFrame, tables: Tables) -> pd.DataFr
     """
     grid = means.query("method == 'compressible' and variant == 'flux-form'")
     limits = grid[np.isinf(grid.resolution) & (grid.ke > STILL)]
-    limits = limits[[*SCENE, "ke", "ke_err", "nu", "nu_err", "rolls"]]
     rows = finite(means.query("eos != '' and method != 'spectral-gas'"))
     rows = rows.merge(limits, on=SCENE, suffixes=("", "_limit"))
     rows = rows.query("method == 'spam' or rolls == rolls_limit")
@@ -185,9 +184,7 @@ def compared(rows: pd.DataFrame, energy: str, column: str, limit: str) -> pd.Dat
 def with_smoothing(rows: pd.DataFrame, tables: Tables) -> pd.DataFrame:
     """Rows of particles, with the share of the K of the grid's field that their weight leaves."""
     spam = rows.query("method == 'spam'")
-    if "smoothed" not in tables:
-        return spam[:0].assign(left=1.0)
-    seen = tables["smoothed"]
+    seen = rows_of(tables, "smoothed").astype({"h": float})
     seen = seen.assign(left=seen.ke_smoothed/seen.ke, resolution=seen.rows, h=seen.h.round(6))
     views = list(map(variant_of, spam.variant, spam.resolution))
     spam = spam.assign(weight=[view.weight.__name__ for view in views],

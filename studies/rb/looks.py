@@ -7,9 +7,8 @@ from matplotlib.axes import Axes
 
 from studies.kit.figure import look
 from studies.kit.table import Tables
-from studies.rb.tables import ALL, POINT
+from studies.rb.tables import POINT, rows
 
-COLUMNS = {table.name: table.columns for table in ALL}
 #: KHP95's ideal gas in the layer of Fig. 5
 LAYER = {"eos": "ideal", "transport": "const-eta", "sides": "periodic", "pr": 1}
 GRID = {"method": "compressible", "variant": "flux-form"}
@@ -33,15 +32,6 @@ UNSETTLED: dict[str, Any] = {"color": "black", "linestyle": "none", "marker": "x
 NOT_STEADY = "not steady: halves of the mean differ"
 
 
-def rows(tables: Tables, name: str, **wanted: Any) -> pd.DataFrame:
-    """Rows of a table where each column has the wanted value; none if there is no such table."""
-    frame = tables.get(name)
-    if frame is None:
-        return pd.DataFrame(columns=list(COLUMNS[name]))
-    for column, value in wanted.items():
-        frame = frame[frame[column] == value]
-    return frame
-
 
 def reference(tables: Tables, **scene: Any) -> pd.DataFrame:
     """The compressible grid, extrapolated, by Ra."""
@@ -50,7 +40,7 @@ def reference(tables: Tables, **scene: Any) -> pd.DataFrame:
 
 def particles(tables: Tables, **scene: Any) -> pd.DataFrame:
     """The printed scheme, means over seeds; `steady` says that every seed has settled."""
-    means = rows(tables, "means", **(SPAM | scene)).sort_values(["resolution", "ra"])
+    means = rows(tables, "means", **SPAM, **scene).sort_values(["resolution", "ra"])
     return means.assign(steady=steady(tables, means))
 
 

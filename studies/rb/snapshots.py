@@ -16,10 +16,10 @@ from studies.build.measure import RANGE, Fields, Snapshot, mirrored, upright
 from studies.kit.ask import NoRows, rows
 from studies.kit.stats import CannotTell, Measured, combine, over_seeds, with_errors
 from studies.kit.table import Tables
+from studies.rb.looks import GRID, finest
 from studies.rb.runs.few_particles import RHO_SQUARED, rates
-from studies.rb.tables import POINT, SCENE
-
-Point = dict[str, Any]
+from studies.rb.tables import POINT, SCENE, Point
+from studies.rb.tables import rows as rows_of
 
 
 def snapshots(tables: Tables) -> Iterator[dict[str, Any]]:
@@ -36,8 +36,7 @@ def snapshots(tables: Tables) -> Iterator[dict[str, Any]]:
 
 def kept(tables: Tables, name: str) -> Iterator[tuple[Point, pd.DataFrame]]:
     """Each point of a table, with the rows of the first seed that has any."""
-    frame = tables.get(name, pd.DataFrame(columns=[*POINT, "seed"]))
-    for key, runs in frame.groupby(POINT):
+    for key, runs in rows_of(tables, name).groupby(POINT):
         yield dict(zip(POINT, key)), runs[runs.seed == runs.seed.min()]
 
 
@@ -71,14 +70,13 @@ def correlation(a: np.ndarray, b: np.ndarray) -> float:
 #: plate -> how rows of places are counted from it
 PLATES = {"lower": 1, "upper": -1}
 EVERYWHERE = slice(None)
-GRID = {"method": "compressible", "variant": "flux-form"}
 
 
 def field_errors(tables: Tables, means: pd.DataFrame) -> Iterator[dict[str, Any]]:
     """One row for each point of particles in `fields` of which the finest grid has the same flow."""
     tables = Tables({**tables, "means": means})
     for point, run in kept(tables, "fields"):
-        grid: Point = {name: point[name] for name in SCENE} | GRID
+        grid = {name: point[name] for name in SCENE} | GRID
         if point["method"] not in ("spam", "dih"):
             continue
         try:
@@ -87,9 +85,9 @@ def field_errors(tables: Tables, means: pd.DataFrame) -> Iterator[dict[str, Any]
             theirs = rows(tables, "means", **grid, resolution=inf)
         except NoRows:
             continue
-        finest = cells[cells.resolution == cells.resolution.max()]
-        if {*ours.rolls} == {*theirs.rolls} and len(run) == len(finest):
-            yield point | with_errors(**errors_of(tables, point, fields(run), fields(finest)))
+        places = finest(cells)
+        if {*ours.rolls} == {*theirs.rolls} and len(run) == len(places):
+            yield point | with_errors(**errors_of(tables, point, fields(run), fields(places)))
 
 
 def fields(run: pd.DataFrame) -> Fields:
@@ -153,12 +151,10 @@ def one_seed(tables: Tables, point: Point) -> float:
 def layer_error(tables: Tables, point: Point, cells: Fields) -> Measured:
     """Largest |rho - rho_grid| within one spacing of a plate, horizontal mean, over the grid's range."""
     try:
-        layers = rows(tables, "walls", **point).dropna(subset="rho_layer").groupby("plate").rho_layer
+        layers = rows(tables, "walls", "rho_layer == rho_layer", **point).groupby("plate").rho_layer
         apart = [abs(over_seeds(seeds - density_beside(cells, PLATES[str(plate)])))
                  for plate, seeds in layers]
-    except CannotTell:
-        return Measured(nan, nan)
-    if not apart:           # points on a triangulation have a row on the plate
+    except CannotTell:      # one seed, or points on a triangulation, which have a row on the plate
         return Measured(nan, nan)
     return worse(apart)/np.ptp(cells["rho"])
 

@@ -7,10 +7,13 @@ time. Lengths in heights L, times in L^2/eta where not said otherwise. Every `_e
 % interval.
 """
 from math import inf
+from typing import Any
 
-from studies.kit.table import Table
+import pandas as pd
 
-Point = dict
+from studies.kit.table import Table, Tables
+
+Point = dict[str, Any]
 SCENE = ["eos", "transport", "sides", "ra", "pr"]
 POINT = ["method", "variant", *SCENE, "resolution"]
 RUN = [*POINT, "seed"]
@@ -39,8 +42,7 @@ FIELDS = Table.of(
     "fields", f"{AT} seed x y", "rho T vx vy", large=True,
     digits={"x": ".4f", "y": ".4f", "rho": ".5f", "T": ".5f", "vx": ".6f", "vy": ".6f"},
     about="A place of a steady field, at most KHP95's 30 x 60 places [Figs 9, 12]; of particles means over "
-          "the "
-          "second half.")
+          "the second half.")
 PARTICLES = Table.of(
     "particles", f"{AT} seed number", "kind x y vx vy T", large=True,
     digits={"x": ".6f", "y": ".6f", "vx": ".5f", "vy": ".5f", "T": ".4f"},
@@ -80,10 +82,19 @@ SPACE = Table.of("three_dimensions", "method variant start ra resolution",
 
 ALL = (KINETIC, MAKERS, MEANS, HISTORY, FIELDS, PARTICLES, WALLS, SMOOTHED, ERRORS, SNAPSHOTS,
        FIELD_ERRORS, ARITHMETIC, SPACE)
+COLUMNS = {table.name: list(table.columns) for table in ALL}
 
 STILL = 1e-6        # K of a grid whose onset lies a little higher: nothing flows, and rolls are of round-off
 #: Prandtl number nu/kappa, kappa = k/(rho C_V), that KHP95's eta = k means
 PRANDTL = {"ideal": 1.0, "vdw": 1.0, "dense": 1.5}
+
+
+def rows(tables: Tables, name: str, **wanted: Any) -> pd.DataFrame:
+    """Rows of a table where each column has the wanted value; none if there is no such table."""
+    frame = tables.get(name, pd.DataFrame(columns=COLUMNS[name]))
+    for column, value in wanted.items():
+        frame = frame[frame[column] == value]
+    return frame
 
 
 def scene(ra: float, eos="ideal", transport="const-eta", sides="periodic") -> Point:
