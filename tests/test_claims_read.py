@@ -5,6 +5,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from studies.build.names import one_energy
 from studies.kit.claim import judge
 from studies.kit.stats import Measured
 from studies.kit.table import Tables
@@ -27,16 +28,11 @@ def means(*rows: dict) -> Tables:
     """Tables `means` and `errors` from points and K; smoothing takes nothing."""
     usual = {"particles": 0, "seeds": 3, "mixed": 0, "rolls": 2, "ke_fluctuation": 1e-4, "nu": 1.5,
              "nu_err": 0.0}
-    full = pd.DataFrame([{**usual, **energies(row["ke"], row["ke_err"]), **row} for row in rows])
+    full = pd.DataFrame([one_energy(row["ke"], row["ke_err"]) | usual | row for row in rows])
     limits = full[np.isinf(full["resolution"])].rename(columns={"ke": "reference"})
     spam = full[full["method"] == "spam"].merge(limits[[*SCENE, "reference"]], on=SCENE)
     return Tables({"means": full, "errors": spam.assign(energy="Kg", reference_err=0.0)})
 
-
-def energies(ke: float, err: float) -> dict:
-    """The same K of particles, field and mean flow."""
-    return {name: value for of in ("ke", "ke_field", "ke_mean")
-            for name, value in ((of, ke), (f"{of}_err", err))}
 
 
 def test_flows_with_other_rolls_are_not_compared():
@@ -97,7 +93,7 @@ def error(ke: tuple[float, ...] = (0.005, 0.005), **changes) -> Measured:
     """Of the velocities of 5000 particles with these K, one a seed, against the grid's."""
     point, cells = particles(1e4), grid(1e4)
     mean = {**point, "ke": np.mean(ke), "ke_err": 0.02*np.mean(ke)*(np.ptp(ke) > 0)}
-    seeds = pd.DataFrame([{**point, "seed": seed, **energies(k, 1e-3*k), "rolls": 2, "converged": True}
+    seeds = pd.DataFrame([{**point, "seed": seed, **one_energy(k, 1e-3*k), "rolls": 2, "converged": True}
                           for seed, k in enumerate(ke, 1)])
     fields = pd.concat([kept(cells, flow(0.0), 48.0), kept(point, flow(**changes), 50.0)])
     tables = means(mean, {**cells, "ke": 0.005, "ke_err": 0.0})
