@@ -9,7 +9,7 @@ from itertools import product
 from typing import Any
 
 from continuum.fluid import ConstNu, DenseFluid, VanDerWaals
-from continuum.scene import Periodic, RayleighBenard, Walls
+from continuum.scene import RayleighBenard, Walls
 from particles.weights import Lucy, Monaghan, WendlandC2, WendlandC4, WendlandC6
 from studies.build.grid import FORMS
 from studies.build.measure import Smoothing
@@ -21,8 +21,7 @@ from studies.rb.runs.arithmetic import SUBJECTS, WithoutFlow
 from studies.rb.runs.grid import BoussinesqSteady, CompressibleApproach, CompressibleSteady, PypdeSteady
 from studies.rb.runs.spam import MakerRun, SpamRun
 
-LAYER: dict[str, Any] = {"aspect": 2.0, "sides": Periodic()}     # Fig. 5
-BOX: dict[str, Any] = {"aspect": 1.0, "sides": Walls()}          # Fig. 6
+BOX: dict[str, Any] = {"aspect": 1.0, "sides": Walls()}     # Fig. 6; a scene's own is the layer of Fig. 5
 NU: dict[str, Any] = {"transport": ConstNu}
 VDW: dict[str, Any] = {"eos": VanDerWaals()}
 DENSE: dict[str, Any] = {"eos": DenseFluid(), "pr": 1.5}    # C_V = 1.5: pr = 1.5 is the printed eta = k
@@ -43,7 +42,7 @@ GRIDS, COARSE = (24, 32, 48), (12, 16, 24)
 def spam(ra: float, rows: int, seeds=SEEDS, variant: Variant = PRINTED, keep="", t_end=90.0, mean_from=40.0,
          **scene) -> Iterator[SpamRun]:
     """One point with several seeds. The first seed keeps fields or particles, the others keep K(t)."""
-    where = RayleighBenard(ra=ra, L=float(rows), **(LAYER | scene))
+    where = RayleighBenard(ra=ra, L=float(rows), **scene)
     for seed in seeds:
         yield SpamRun(scene=where, variant=variant, seed=seed, t_end=t_end, mean_from=mean_from,
                       keep=keep if seed == seeds[0] else keep and "history")
@@ -52,7 +51,7 @@ def spam(ra: float, rows: int, seeds=SEEDS, variant: Variant = PRINTED, keep="",
 def gas(ra: float, sizes: tuple[int, ...], keep="", form="flux-form", longest=60.0,
         **scene) -> CompressibleSteady:
     """Steady states on grids, smoothed with the weights of the particles that are compared with them."""
-    where = RayleighBenard(ra=ra, **(LAYER | scene))
+    where = RayleighBenard(ra=ra, **scene)
     smooth = tuple(seen_by(where)) if form == "flux-form" else ()
     return CompressibleSteady(scene=where, sizes=sizes, keep=keep, form=FORMS[form], longest=longest,
                               smooth=smooth)
@@ -68,7 +67,7 @@ def seen_by(scene: RayleighBenard) -> Iterator[Smoothing]:
             yield Smoothing(weight, h, rows)
         for rows in (35, 70):
             yield Smoothing(WendlandC2, 3.0, rows)
-    if scene == RayleighBenard(ra=1e4, **LAYER):
+    if scene == RayleighBenard(ra=1e4):
         for name, rows in product(("wendland-c2-joint", "printed-joint"), (35, 50, 70, 100)):
             view = variant_of(name, rows)
             yield Smoothing(view.weight, view.h, rows)
