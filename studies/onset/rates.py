@@ -77,17 +77,12 @@ class LinearTheory(Case, table="critical_ra"):
     """Critical Rayleigh numbers of a Boussinesq fluid; err: what four trial functions fewer change."""
 
     def measure(self, report: Report) -> Iterator[Row]:
-        yield self.onset("ra_c infinite layer rigid", critical().k, "infinite")
-        yield self.onset("ra_c periodic aspect 2", np.pi, "periodic")
-
-    def onset(self, quantity: str, k: float, sides: str) -> Row:
-        """Row for rolls of wave number k, in 1/height."""
-        value, other = (critical_ra(k, RIGID, degree) for degree in (DEGREE, DEGREE - 4))
-        at = point("linear", RayleighBenard(ra=value), np.inf)
-        at.pop("ra")
-        at |= {"eos": "", "transport": "", "dT": 0.0, "sides": sides}       # a Boussinesq fluid has none
-        return {**at, "quantity": quantity, "value": value, "err": abs(value - other),
-                "way": "eigenvalue", "reach": 0.0, "ke_start": 0.0}
+        for box, k, sides in (("infinite layer rigid", critical().k, "infinite"),
+                              ("periodic aspect 2", np.pi, "periodic")):
+            value, other = (critical_ra(k, RIGID, degree) for degree in (DEGREE, DEGREE - 4))
+            yield {"method": "linear", "variant": "", "eos": "", "transport": "", "dT": 0.0, "sides": sides,
+                   "pr": 1.0, "resolution": np.inf, "quantity": f"ra_c {box}", "value": value,
+                   "err": abs(value - other), "way": "eigenvalue", "reach": 0.0, "ke_start": 0.0}
 
 
 class GridGrowth(Case, table="growth_rates"):

@@ -66,16 +66,12 @@ def derive(tables: Tables) -> Rows:
         critical += from_growth(tables["growth_rates"])
         critical += fine_grids(critical)
     if "energies" in tables:
-        rows = of_energies(tables["energies"].query("resolution < @inf"))
-        critical += [critical_row(line, line["ra_c"], line["err"]) for line in rows["lines"]]
+        grids = tables["energies"].query("resolution < @inf")
+        limits = list(extrapolated_energies(grids))
+        lines = list(all_lines(pd.concat([grids, pd.DataFrame(limits, columns=grids.columns)])))
+        rows = {"energies": limits, "lines": lines}
+        critical += [critical_row(line, line["ra_c"], line["err"]) for line in lines]
     return rows | {"critical_ra": critical}
-
-
-def of_energies(grids: pd.DataFrame) -> dict[str, list[Row]]:
-    """Energies extrapolated to fine grids; lines through those of each grid and through the extrapolated."""
-    limits = list(extrapolated_energies(grids))
-    every = pd.concat([grids, pd.DataFrame(limits, columns=grids.columns)])
-    return {"energies": limits, "lines": list(all_lines(every))}
 
 
 def critical_row(at: Any, value: float, err: float) -> Row:

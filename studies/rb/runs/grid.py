@@ -131,20 +131,17 @@ class BoussinesqSteady(Case, table="kinetic_energy"):
     sizes: tuple[int, ...] = (24, 32, 48, 64)
 
     def measure(self, report: Report) -> Iterator[dict]:
-        state: boussinesq.State | None = None
+        state: Any = None
         for size in self.sizes:
             case = boussinesq.BoussinesqCase(ra=self.ra, pr=self.pr, box=boussinesq.HALF_LAYER, rows=size)
-            steady, compile_s, cpu_s = compile_and_run_seconds(partial(boussinesq.steady, case, state))
-            state = steady
-            yield {**self._row(steady), "resolution": size, "cpu_s": cpu_s, "compile_s": compile_s}
-
-    def _row(self, state: boussinesq.State) -> dict:
-        seen = state.observe()
-        nu = (seen.nu_bottom + seen.nu_top)/2
-        return {"method": "boussinesq", "variant": "mac", **NO_GAS, "sides": "periodic", "ra": self.ra,
-                "pr": self.pr, **no_particles(1.0), **AT_ONCE, **one_energy(seen.K, NINE*seen.K),
-                "nu": nu, "nu_err": abs(seen.nu_bottom - seen.nu_top) + NINE*nu,
-                "rolls": 2*state.rolls, "steps": len(state.changes)}
+            state, compile_s, cpu_s = compile_and_run_seconds(partial(boussinesq.steady, case, state))
+            seen = state.observe()
+            nu = (seen.nu_bottom + seen.nu_top)/2
+            yield {"method": "boussinesq", "variant": "mac", **NO_GAS, "sides": "periodic", "ra": self.ra,
+                   "pr": self.pr, "resolution": size, **no_particles(1.0), **AT_ONCE,
+                   **one_energy(seen.K, NINE*seen.K), "nu": nu,
+                   "nu_err": abs(seen.nu_bottom - seen.nu_top) + NINE*nu, "rolls": 2*state.rolls,
+                   "steps": len(state.changes), "cpu_s": cpu_s, "compile_s": compile_s}
 
 
 class SpectralGas(Case, table="kinetic_energy"):
