@@ -27,8 +27,6 @@ OPEN = {"markerfacecolor": "white"}
 MARKS = {"linestyle": "none"}
 #: kind -> column of `means`, words
 ENERGIES = {"kp": ("ke", "$K_p$, all particles"), "kg": ("ke_field", "$K_g$, smoothed field")}
-UNSETTLED: dict[str, Any] = {"color": "black", "linestyle": "none", "marker": "x", "markersize": 8,
-                             "zorder": 6}
 NOT_STEADY = "not steady: halves of the mean differ"
 
 
@@ -74,4 +72,4 @@ def cross_out(axes: Axes, x: pd.Series, y: pd.Series, steady: pd.Series) -> None
     if not steady.all():
         labels = axes.get_legend_handles_labels()[1]
         label = "" if NOT_STEADY in labels else NOT_STEADY
-        axes.plot(x[~steady], y[~steady], **UNSETTLED, label=label)
+        axes.plot(x[~steady], y[~steady], "x", color="black", markersize=8, zorder=6, label=label)

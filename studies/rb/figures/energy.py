@@ -17,7 +17,6 @@ from studies.rb import looks
 from studies.rb.looks import ENERGIES, GRID, KIND, LAYER, MARKS, OPEN, SPAM
 from studies.rb.tables import STILL
 
-Style = dict[str, Any]
 #: how far marks at the same Ra are moved apart, in Ra^-1/2
 ASIDE = 1.5e-4
 RA = 10000      # of Fig. 8, and of what changes of a scheme do
@@ -36,7 +35,7 @@ def grid(axes: Axes, limit: pd.DataFrame, words: str) -> None:
         axes.plot(limit.ra**-0.5, limit.ke, **style | MARKS)
 
 
-def energies(axes: Axes, spam: pd.DataFrame, column: str, words: str, style: Style, aside=0.0) -> None:
+def energies(axes: Axes, spam: pd.DataFrame, column: str, words: str, style: dict, aside=0.0) -> None:
     """An energy of particles by Ra, marks a little to the right; no interval reaches below zero."""
     if spam.empty:
         return

@@ -176,7 +176,6 @@ def finish(axes: Axes, title: str, line: pd.DataFrame) -> None:
     """Logarithmic axes in the range of a line of panels, numbers written out."""
     size = line.error.abs()
     axes.set(xscale="log", yscale="log", title=title, xlabel=ROWS, ylim=(0.4*size.min(), 2*size.max()))
-    for axis in (axes.xaxis, axes.yaxis):
-        numbered(axis, (1, 2, 5))
+    numbered(axes.yaxis, (1, 2, 5))
     plain_ticks(axes, sorted({*line.resolution}))
     axes.tick_params(labelbottom=True)
