@@ -21,12 +21,10 @@ FEW = 40            # samples of a history that is not shown
 
 
 class SpamRun(AveragedRun, table="kinetic_energy"):
-    """One run of smooth particles.
+    """One run of smooth particles; L of the scene is the number of rows.
 
-    scene : with L = particle rows over the height (unit spacing). t_end, mean_from : in free-fall times
-    L/free_fall, averages are taken after `mean_from`. keep : "" for energies only, "history" for K(t) in
-    detail, "fields" for the mean fields besides, "all" for the particles at the end besides. A run that
-    diverges is a result: its row has no energies and the time of the failure.
+    keep : "" for energies only, "history" for K(t) in detail, "fields" for the mean fields besides, "all" for
+    the particles at the end besides.
     """
     variant: Variant = PRINTED
     mean_from: float = 40.0
