@@ -1,6 +1,5 @@
 """Rows of `snapshots` and `field_errors`, from particles and mean fields at the end of runs."""
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from math import hypot, inf, nan, sqrt
 from typing import Any
 
@@ -8,12 +7,11 @@ import numpy as np
 import pandas as pd
 from scipy.special import stdtrit
 
-from continuum.fluid import ConstEta, IdealGas
-from particles.smooth.spam import Spam
-from particles.walls.periodic import periodic
+from continuum.fluid import ConstEta
 from particles.weights import Lucy
 from studies.build.measure import RANGE, Fields, Snapshot, mirrored, upright
-from studies.kit.ask import NoRows, rows
+from studies.build.spam import fluid
+from studies.kit.ask import NoRows, picked, rows, top
 from studies.kit.stats import CannotTell, Measured, combine, over_seeds, with_errors
 from studies.kit.table import Tables
 from studies.rb.looks import GRID, finest
@@ -43,7 +41,7 @@ def kept(tables: Tables, name: str) -> Iterator[tuple[Point, pd.DataFrame]]:
 def newtonian(at: Snapshot, point: Point, T: np.ndarray) -> Measured:
     """Correlation of the accelerations with those of the potential 2 P n^-2 w    [KHP95, Sec. VII]
 
-    Within layers of twice the range of the weight, three ranges off the plates, beyond which nothing is.
+    Within layers of twice the range of the weight, three ranges off the plates, beyond which the box repeats.
     Particles in range of each other are not independent, so each layer is one sample. For the ideal gas with
     Lucy's weight; not a number elsewhere, and where no two layers fit.
     """
@@ -51,11 +49,11 @@ def newtonian(at: Snapshot, point: Point, T: np.ndarray) -> Measured:
     if (point["variant"], point["eos"]) != ("printed", "ideal") or inner < 2*RANGE:
         return Measured(nan, nan)
     eta, box = at.height/sqrt(point["ra"]), (2*at.height, at.height)
-    gas = Spam(weight=Lucy.of(RANGE), eos=IdealGas(), law=ConstEta(eta, eta), walls=periodic(box[0]), box=box)
-    molecules = replace(gas, eos=RHO_SQUARED, law=ConstEta(0.0, 0.0))
+    gas = fluid(Lucy.of(RANGE), box, law=ConstEta(eta, eta))
+    molecules = fluid(Lucy.of(RANGE), box, RHO_SQUARED)
     x, v = at.x[:at.n].T, at.v[:at.n].T
-    real, simple = (rates(method, np.array([*x, *v, e]))[2:4].T for method, e in ((gas, T),
-                                                                                   (molecules, 1e3*T)))
+    real, simple = (rates(method, np.array([*x, *v, e]))[2:4].T
+                    for method, e in ((gas, T), (molecules, 1e3*T)))
     layer = np.digitize(x[1], np.arange(-inner, inner + 1e-9, 2*RANGE))
     inside = (layer == number for number in range(1, layer.max()))
     return combine([(correlation(real[some], simple[some]), 0.0) for some in inside])
@@ -67,8 +65,6 @@ def correlation(a: np.ndarray, b: np.ndarray) -> float:
     return float(np.sum(a*b)/sqrt(np.sum(a*a)*np.sum(b*b)))
 
 
-#: plate -> how rows of places are counted from it
-PLATES = {"lower": 1, "upper": -1}
 EVERYWHERE = slice(None)
 
 
@@ -107,7 +103,7 @@ def errors_of(tables: Tables, point: Point, ours: Fields, theirs: Fields) -> dic
         return (difference(ours, theirs, names, at) + of_seeds)/size
     return {
         "velocity": error(speed, "vx", "vy"), "T": error(T, "T"), "rho": error(rho, "rho"),
-        "rho_plates": worse([error(rho, "rho", at=at) for at in (slice(1), slice(-1, None))]),
+        "rho_plates": picked(top, [error(rho, "rho", at=at) for at in (slice(1), slice(-1, None))]),
         "rho_layer": layer_error(tables, point, theirs)}
 
 
@@ -152,20 +148,15 @@ def layer_error(tables: Tables, point: Point, cells: Fields) -> Measured:
     """Largest |rho - rho_grid| within one spacing of a plate, horizontal mean, over the grid's range."""
     try:
         layers = rows(tables, "walls", "rho_layer == rho_layer", **point).groupby("plate").rho_layer
-        apart = [abs(over_seeds(seeds - density_beside(cells, PLATES[str(plate)])))
-                 for plate, seeds in layers]
+        apart = [abs(over_seeds(seeds - density_beside(cells, plate))) for plate, seeds in layers]
     except CannotTell:      # one seed, or points on a triangulation, which have a row on the plate
         return Measured(nan, nan)
-    return worse(apart)/np.ptp(cells["rho"])
+    return picked(top, apart)/np.ptp(cells["rho"])
 
 
-def density_beside(at: Fields, side: int) -> float:
+def density_beside(at: Fields, plate: Any) -> float:
     """The grid's mean density half a spacing of 50 rows from a plate, by a line through two places."""
-    mean = at["rho"].mean(axis=1)[::side]
+    mean = at["rho"].mean(axis=1)[::1 if plate == "lower" else -1]
     places = len(mean)*0.5/50 - 0.5       # from the first place, in distances of places
     return mean[0] + places*(mean[1] - mean[0])  # type: ignore[no-any-return]
 
-
-def worse(errors: list[Measured]) -> Measured:
-    """The largest value with the largest error."""
-    return Measured(*map(max, zip(*errors)))
