@@ -11,7 +11,7 @@ from continuum.fluid import ConstEta
 from particles.weights import Lucy
 from studies.build.measure import RANGE, Fields, Snapshot, mirrored, upright
 from studies.build.spam import fluid
-from studies.kit.ask import NoRows, picked, rows, top
+from studies.kit.ask import picked, rows, top
 from studies.kit.stats import CannotTell, Measured, combine, over_seeds, with_errors
 from studies.kit.table import Tables
 from studies.rb.looks import GRID, finest
@@ -65,25 +65,18 @@ def correlation(a: np.ndarray, b: np.ndarray) -> float:
     return float(np.sum(a*b)/sqrt(np.sum(a*a)*np.sum(b*b)))
 
 
-EVERYWHERE = slice(None)
-
 
 def field_errors(tables: Tables, means: pd.DataFrame) -> Iterator[dict[str, Any]]:
     """One row for each point of particles in `fields` of which the finest grid has the same flow."""
     tables = Tables({**tables, "means": means})
     for point, run in kept(tables, "fields"):
         grid = {name: point[name] for name in SCENE} | GRID
-        if point["method"] not in ("spam", "dih"):
-            continue
-        try:
-            cells = rows(tables, "fields", **grid)
-            ours = rows(tables, "kinetic_energy", **point, seed=run.seed.iloc[0])
-            theirs = rows(tables, "means", **grid, resolution=inf)
-        except NoRows:
-            continue
-        places = finest(cells)
-        if {*ours.rolls} == {*theirs.rolls} and len(run) == len(places):
-            yield point | with_errors(**errors_of(tables, point, fields(run), fields(places)))
+        cells = finest(rows_of(tables, "fields", **grid))
+        ours = rows_of(tables, "kinetic_energy", **point, seed=run.seed.iloc[0])
+        theirs = rows_of(tables, "means", **grid, resolution=inf)
+        alike = ours.rolls.isin(theirs.rolls).any() and len(run) == len(cells)
+        if alike and point["method"] in ("spam", "dih"):
+            yield point | with_errors(**errors_of(tables, point, fields(run), fields(cells)))
 
 
 def fields(run: pd.DataFrame) -> Fields:
@@ -98,7 +91,7 @@ def errors_of(tables: Tables, point: Point, ours: Fields, theirs: Fields) -> dic
     rho, T = (np.ptp(theirs[name]) for name in ("rho", "T"))
     speed = sqrt(np.mean(theirs["vx"]**2 + theirs["vy"]**2))
 
-    def error(size: float, *names: str, at: slice = EVERYWHERE) -> Measured:
+    def error(size: float, *names: str, at: Any = ...) -> Measured:
         of_seeds = Measured(0.0, relative/2*from_rest(ours, names))
         return (difference(ours, theirs, names, at) + of_seeds)/size
     return {
@@ -107,7 +100,7 @@ def errors_of(tables: Tables, point: Point, ours: Fields, theirs: Fields) -> dic
         "rho_layer": layer_error(tables, point, theirs)}
 
 
-def difference(one: Fields, other: Fields, names: Sequence[str], at: slice) -> Measured:
+def difference(one: Fields, other: Fields, names: Sequence[str], at: Any) -> Measured:
     """Root mean square of the mirror-symmetric part of one - other, over some rows, summed over named fields.
 
     Both flows are symmetric in the mirror: the other part of the difference is noise, of which the symmetric
