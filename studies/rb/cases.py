@@ -40,12 +40,12 @@ GRIDS, COARSE = (24, 32, 48), (12, 16, 24)
 
 
 def spam(ra: float, rows: int, seeds=SEEDS, variant: Variant = PRINTED, keep="", t_end=90.0, mean_from=40.0,
-         **scene) -> Iterator[SpamRun]:
+         kind=SpamRun, **scene) -> Iterator[SpamRun]:
     """One point with several seeds. The first seed keeps fields or particles, the others keep K(t)."""
     where = RayleighBenard(ra=ra, L=float(rows), **scene)
     for seed in seeds:
-        yield SpamRun(scene=where, variant=variant, seed=seed, t_end=t_end, mean_from=mean_from,
-                      keep=keep if seed == seeds[0] else keep and "history")
+        yield kind(scene=where, variant=variant, seed=seed, t_end=t_end, mean_from=mean_from,
+                   keep=keep if seed == seeds[0] else keep and "history")
 
 
 def gas(ra: float, sizes: tuple[int, ...], keep="", form="flux-form", longest=60.0,
@@ -182,9 +182,9 @@ def more() -> Iterator[Case]:
         yield from spam(5e3, 50, variant=VARIANTS[name])
 
 
-def upto(most: int) -> Iterator[int]:
+def upto(most: int) -> list[int]:
     """Numbers of rows in a series, up to the finest that is run."""
-    yield from (rows for rows in (25, 35, 50, 70, 100) if rows <= most)
+    return [rows for rows in (25, 35, 50, 70, 100) if rows <= most]
 
 
 def joint() -> Iterator[Case]:
@@ -204,9 +204,9 @@ MAKERS = {"CRKSPH": 70, "MFM": 70, "MFM-adiabatic": 70, "riemann": 70, "delta-pl
 def today() -> Iterator[Case]:
     """All of these. Means are taken later than usual, when the ringing of the start has faded."""
     for name, most in (CORRECTED | MAKERS).items():
+        kind = MakerRun if name in MAKERS else SpamRun
         for rows in upto(most):
-            for run in spam(1e4, rows, variant=TODAY[name], mean_from=60.0):
-                yield MakerRun(**vars(run)) if name in MAKERS else run
+            yield from spam(1e4, rows, variant=TODAY[name], mean_from=60.0, kind=kind)
 
 
 def fine() -> Iterator[Case]:
