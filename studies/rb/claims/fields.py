@@ -11,7 +11,7 @@ from studies.kit.claim import Claim
 from studies.kit.stats import CannotTell, Measured
 from studies.kit.table import Tables
 from studies.rb.claims import questions
-from studies.rb.claims.questions import ALIKE, diverged, history, mean, rolls_in, said, same_flow
+from studies.rb.claims.questions import ALIKE, diverged, guarded, history, mean, rolls_in, said, same_flow
 from studies.rb.tables import Point, besides, grid, particles
 
 STEADY, ROWS = particles(1e4), particles(1e4, variant="printed-fixed-rows")
@@ -59,14 +59,12 @@ def losses(variant: str) -> Value:
     point = particles(1e4, variant=variant)
     turns = per_seed(one("walls", f"reflections/{PARTICLES}", plate="lower", **point))
 
-    def answer(tables: Tables) -> Measured:
-        number = turns(tables)
-        if number.value > 0:
-            raise CannotTell(f"the elastic wall turned particles back, {number.value:.2g} times a particle "
-                             "and run; but a turn is no loss: a particle beyond the plate may come back by "
+    def check(tables: Tables) -> None:
+        if (number := turns(tables).value) > 0:
+            raise CannotTell(f"the elastic wall turned particles back, {number:.2g} times a particle and "
+                             "run; but a turn is no loss: a particle beyond the plate may come back by "
                              "itself, and no run here goes without it")
-        return number
-    return Value(answer, str(turns), turns.asks)
+    return guarded(turns, check)
 
 
 def carried(tables: Tables) -> Measured:
