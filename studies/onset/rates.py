@@ -56,10 +56,7 @@ def matrix(scene: RayleighBenard, rows: int, step: float) -> np.ndarray:
 
 
 def compressible(scene: RayleighBenard, rows: int) -> tuple[float, float]:
-    """Growth rate of the gas on KHP95's grid, and its error: what differences of another step change.
-
-    Between four walls it is that of the grid's sparse matrix.
-    """
+    """Growth rate of the gas on KHP95's grid, and its error: what differences of another step change."""
     unit = scene.L/scene.free_fall
     if isinstance(scene.sides, Walls):
         return unit*newton.growth_rate(scene, rows), 1e-8

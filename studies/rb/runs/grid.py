@@ -41,10 +41,8 @@ def no_particles(free_fall: float) -> dict:
 
 
 def spent(solution: Any) -> dict:
-    """Columns of energy and effort of a solution in time.
-
-    The change of Nu that is still to come is taken in proportion to that of K. The error of the grid shows in
-    the extrapolation.
+    """Columns of energy and effort of a solution in time; the change of Nu still to come is in proportion to
+    that of K.
     """
     left = 2*solution.ke_err/solution.ke*solution.nu if solution.ke > 1e-9 else 0.0
     return {**one_energy(solution.ke, 2*solution.ke_err), "nu": solution.nu, "nu_err": float(left),
