@@ -14,6 +14,7 @@ from numpy.polynomial import Polynomial
 
 from continuum.fluid import ConstEta, VanDerWaals
 from particles.integrators import RK4, Euler
+from particles.limits import rates_of
 from particles.plan import Plan
 from particles.run import run
 from particles.smooth.spam import Spam
@@ -156,9 +157,7 @@ def start(method: Spam = GAS, seed: int = 1) -> np.ndarray:
 def rates(method: Spam, state: np.ndarray) -> np.ndarray:
     """d/dt of a state (5, n) by the sums that run."""
     sums, ordered, ids = method.look(state)
-    out = np.empty_like(ordered)
-    sums.rates(ordered, out)
-    return out[:, np.argsort(ids)]
+    return rates_of(sums, ordered)[:, np.argsort(ids)]
 
 
 @cache
