@@ -36,11 +36,6 @@ def reference(tables: Tables, **scene: Any) -> pd.DataFrame:
     return rows(tables, "means", **GRID, **scene, resolution=np.inf).sort_values("ra")
 
 
-def particles(tables: Tables, **scene: Any) -> pd.DataFrame:
-    """The printed scheme, means over seeds; `steady` says that every seed has settled."""
-    means = rows(tables, "means", **SPAM, **scene).sort_values(["resolution", "ra"])
-    return means.assign(steady=steady(tables, means))
-
 
 def errors(tables: Tables, **scene: Any) -> pd.DataFrame:
     """Relative errors by method, resolution and energy (Kp, Kg or Nu), with `steady`."""

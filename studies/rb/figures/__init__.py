@@ -9,7 +9,7 @@ from studies.kit.figure import Drawings, Overview
 from studies.kit.table import Tables
 from studies.rb import looks
 from studies.rb.figures import energy, errors, flow
-from studies.rb.looks import ENERGIES, KHP95_PARTICLES, KIND, LAYER, RA_SHOWN
+from studies.rb.looks import ENERGIES, KHP95_PARTICLES, KIND, LAYER, RA_SHOWN, SPAM
 
 RA_C = published("chandrasekhar-ra-rigid").value
 #: points beside the grid and smooth particles, and how far their marks are moved right
@@ -23,14 +23,14 @@ def main(tables: Tables) -> Figure | None:
     """Convection of an ideal gas: kinetic energy K of smooth particles and of points beside a converged grid.
     Below, their errors with more rows: those of points vanish, those of smooth particles do not.
     """
-    limit, spam = looks.reference(tables, **LAYER), looks.particles(tables, **LAYER)
-    found = looks.errors(tables, **LAYER, ra=max(RA_SHOWN))
+    limit, spam = looks.reference(tables, **LAYER), looks.rows(tables, "means", **SPAM, **LAYER)
     if limit.empty and spam.empty:
         return None
     page = Figure(figsize=(7, 8.6), layout="constrained")
     upper, lower = page.subplots(2, 1, height_ratios=(5, 4))
-    whole(upper, tables, limit, looks.finest(spam[spam.particles <= KHP95_PARTICLES]))
-    over_rows(lower, errors.of_series(found, SHOWN))
+    spam = looks.finest(spam[spam.particles <= KHP95_PARTICLES]).sort_values("ra")
+    whole(upper, tables, limit, spam.assign(steady=looks.steady(tables, spam)))
+    over_rows(lower, errors.of_series(looks.errors(tables, **LAYER, ra=max(RA_SHOWN)), SHOWN))
     page.suptitle("Points converge on the grid, smooth particles do not", fontsize=12)
     return page
 

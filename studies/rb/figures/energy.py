@@ -46,7 +46,7 @@ def energies(axes: Axes, spam: pd.DataFrame, column: str, words: str, style: dic
 
 def name_frozen(axes: Axes, limit: pd.DataFrame, spam: pd.DataFrame) -> None:
     """Mark Ra at which the grid convects, while the finest particles stand still on a lattice."""
-    both = looks.finest(spam).merge(limit[["ra", "ke"]], on="ra", suffixes=("", "_grid"))
+    both = spam.merge(limit[["ra", "ke"]], on="ra", suffixes=("", "_grid"))
     frozen = both[(both.ke_grid > STILL) & (both.ke_field < 0.01*both.ke_grid)]
     line = {"arrowstyle": "-", "lw": 0.6, "shrinkB": 4}
     for ra in frozen.ra:
