@@ -162,7 +162,7 @@ def errors(runs: pd.DataFrame, means: pd.DataFrame, tables: Tables) -> pd.DataFr
     """
     grid = means.query("method == 'compressible' and variant == 'flux-form'")
     limits = grid[np.isinf(grid.resolution) & (grid.ke > STILL)]
-    rows = finite(means.query("eos != '' and method != 'spectral-gas'"))
+    rows = finite(means.query("method != 'spectral-gas'"))
     rows = rows.merge(limits, on=SCENE, suffixes=("", "_limit"))
     rows = rows.query("method == 'spam' or rolls == rolls_limit")
     rows = rows.merge(spent(runs), on=POINT)
