@@ -58,8 +58,7 @@ class SpamRun(AveragedRun, table="kinetic_energy"):
         late = [self.late(done, name) for name in ("kp", "kg", "heat")]
         (kp, steady), (kg, too), (heat, _) = (settled(series, HALVES) for series in late)
         at = Smoothed(*done.means["grid"])
-        periodic = isinstance(self.scene.sides, Periodic)
-        flow = flowing({"rho": at.rho, "vx": at.vx, "vy": at.vy}, periodic)
+        flow = flowing(at._asdict(), isinstance(self.scene.sides, Periodic))
         return {"ke": kp.value, "ke_err": kp.err, "ke_field": kg.value, "ke_field_err": kg.err,
                 "ke_mean": flow.value, "ke_mean_err": flow.err, "ke_fluctuation": kp.value - kg.value,
                 "nu": heat.value/self.conduction, "nu_err": heat.err/self.conduction,
