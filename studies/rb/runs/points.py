@@ -46,16 +46,7 @@ class PointsRun(Case, table="kinetic_energy"):
 
     @property
     def cost(self) -> float:
-        return self.each*self.points*self.t_end*self.unit + 5
-
-    @property
-    def held(self) -> int:
-        """1 with rows of points on both plates, where there is one more than between images."""
-        return 0
-
-    @property
-    def points(self) -> int:
-        return round(self.scene.width)*(round(self.scene.L) + self.held)
+        return self.each*self.scene.width*self.scene.L*self.t_end*self.unit + 5
 
     @property
     def unit(self) -> float:
@@ -76,8 +67,8 @@ class PointsRun(Case, table="kinetic_energy"):
     def run(self, report: Report, folder: Path) -> Outcome:
         ready, steps, done = followed(self.scene, self.variant, self.seed, self.t_end, self.often, report,
                                       folder/"run.h5", **self.plan)
-        row = {**self.point, "particles": self.points, "free_fall": self.scene.free_fall, "threads": 1,
-               "dt": ready.dt, "steps": steps, "t_end": steps*ready.dt}
+        row = {**self.point, "particles": ready.start.shape[1], "free_fall": self.scene.free_fall,
+               "threads": 1, "dt": ready.dt, "steps": steps, "t_end": steps*ready.dt}
         if done is None:
             return Outcome({self.table: [row | DIVERGED]})
         values = {**self.energies(done), "cpu_s": done.cpu_s, "compile_s": done.compile_s}
@@ -106,10 +97,6 @@ class DihRun(PointsRun, table="kinetic_energy"):
     t_end: float = 150.0
     often: ClassVar[int] = 4
     each: ClassVar[float] = 0.7e-6
-
-    @property
-    def held(self) -> int:
-        return self.variant.held
 
     def energies(self, done: Run) -> dict:
         """K and Nu at the end of the run."""
@@ -155,10 +142,6 @@ class CarriedRun(AveragedRun, table="kinetic_energy"):
     mean_from: float = 150.0
     keep: bool = False
     each: ClassVar[float] = 0.7e-6
-
-    @property
-    def held(self) -> int:
-        return 1
 
     def more(self, ready: Ready, done: Run) -> Rows:
         """Nu at both plates and of the whole layer; what is kept."""
