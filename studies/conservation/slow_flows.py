@@ -27,7 +27,7 @@ OF_LIMIT = 0.9              # time step over its stability limit: a steady flow 
 BOXES = 2.0                 # distance that images slide during a run, in lengths of the box
 DIFFERENCE = 0.1            # difference of the speeds of neighbouring boxes
 SOUND = np.sqrt(2.0)        # speed of sound at rho = T = 1
-#: points, indices of the points of the body, edges
+#: lattice of spacing 1 with a disc in its middle: points, indices of the points of the body, edges
 Cell = tuple[Points, np.ndarray, Edges]
 
 
@@ -36,13 +36,15 @@ def spent(done: Run) -> dict[str, float]:
     return {"steps": done.step, "cpu_s": done.cpu_s, "compile_s": done.compile_s}
 
 
-def in_disc(points: Points, radius: float) -> np.ndarray:
-    """Indices of the points in a disc about the middle of the box, its circumference included."""
-    return np.flatnonzero(np.hypot(*points.x.T) <= radius*(1 + 1e-12))
+def frozen(counts: tuple[int, int], radius: float) -> Cell:
+    """A lattice; the body is its points within the disc, its circumference included."""
+    points = lattice(counts)
+    body = np.flatnonzero(np.hypot(*points.x.T) <= radius*(1 + 1e-12))
+    return points, body, renormalised(points, Lucy.of(h=2.0))
 
 
-def with_surface(counts: tuple[int, int], radius: float) -> tuple[Points, np.ndarray]:
-    """A lattice of spacing 1 with points on a circle about its middle, and the indices of the disc's points.
+def surface(counts: tuple[int, int], radius: float) -> Cell:
+    """A lattice with points on the circle; edges of a Delaunay triangulation.
 
     Lattice points nearer to the circle than CLEAR are left out, so that chords between neighbours on it are
     Delaunay edges. The polygon of n points lacks a fraction (2 pi/n)^2/6 of the area of the disc.
@@ -51,19 +53,7 @@ def with_surface(counts: tuple[int, int], radius: float) -> tuple[Points, np.nda
     r = np.hypot(*at.x.T)
     inside, outside = at.x[r < radius - CLEAR], at.x[r > radius + CLEAR]
     points = of_positions(np.concatenate([circle, inside, outside]), at.box)
-    return points, np.arange(len(circle) + len(inside))
-
-
-def frozen(rows: int, radius: float) -> Cell:
-    """A lattice; the body is its points within the disc."""
-    points = lattice((rows, rows))
-    return points, in_disc(points, radius), renormalised(points, Lucy.of(h=2.0))
-
-
-def surface(rows: int, radius: float) -> Cell:
-    """Points on the circle, in a lattice; edges of a Delaunay triangulation."""
-    points, body = with_surface((rows, rows), radius)
-    return points, body, delaunay(points)
+    return points, np.arange(len(circle) + len(inside)), delaunay(points)
 
 
 def drag(sums: Streaming, state: np.ndarray) -> float:
@@ -80,7 +70,7 @@ class CylinderDrag(Case, table="drag", same="variant fraction rows"):
     variant : how the body is made. fraction : of solid. The push is that of the published drag at the mean
     velocity SPEED.
     """
-    variant: Callable[[int, float], Cell]
+    variant: Callable[[tuple[int, int], float], Cell]
     fraction: float
     rows: int
 
@@ -110,7 +100,7 @@ class CylinderDrag(Case, table="drag", same="variant fraction rows"):
 
     def method(self, radius: float) -> Stream:
         """The gas on the points of the variant."""
-        points, body, edges = self.variant(self.rows, radius)
+        points, body, edges = self.variant((self.rows, self.rows), radius)
         push = published(f"cylinders-drag-{self.fraction:g}").value*ETA*SPEED/self.rows**2
         return Stream(x=points.x, edges=edges, eos=IdealGas(), law=ConstEta(ETA, ETA),
                       held=held(body, T=1.0), push=(push, 0.0), chi=PRESSURE/ETA)
