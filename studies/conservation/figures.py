@@ -1,7 +1,6 @@
 """Figures of the study conservation, from its tables."""
 import numpy as np
 import pandas as pd
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from studies.kit.figure import Drawing, Drawings, bars, figure, logarithmic, look, numbered
@@ -15,7 +14,10 @@ def drags(drag: pd.DataFrame) -> Figure:
     page, axes = figure(1, len(fractions), width=4.4, height=4.2, squeeze=False, sharey=True)
     drag = drag.assign(percent=100*drag["error"].abs(), percent_err=100*drag["error_err"])
     for panel, fraction in zip(axes[0], fractions, strict=True):
-        draw_drags(panel, drag[drag["fraction"] == fraction].sort_values("rows"))
+        rows = drag[drag["fraction"] == fraction]
+        for number, (name, words) in enumerate(BODIES.items()):
+            bars(panel, rows[rows["variant"] == name], "radius", "percent", number=number, label=words,
+                 linestyle=look(number)["linestyle"])
         for power, style, at in ((1, ":", 60.0), (2, "--", 16.0)):
             radius = np.array([drag["radius"].min(), drag["radius"].max()])
             panel.plot(radius, at*radius**-power, color="grey", linestyle=style, marker="",
@@ -28,14 +30,6 @@ def drags(drag: pd.DataFrame) -> Figure:
     page.suptitle("Points on its surface give a cylinder's drag, frozen lattice points err without order\n"
                   "against Sangani & Acrivos (1982); bars: print and what was not steady")
     return page
-
-
-def draw_drags(axes: Axes, rows: pd.DataFrame) -> None:
-    """Draw the error of each variant over the radius."""
-    for number, (name, words) in enumerate(BODIES.items()):
-        group = rows[rows["variant"] == name]
-        bars(axes, group, "radius", "percent", number=number, label=words,
-             linestyle=look(number)["linestyle"])
 
 
 FIGURES = Drawings(Drawing("drag", ("drag",), drags))

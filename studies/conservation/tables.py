@@ -5,6 +5,7 @@ Lengths in spacings a, gas at rho = T = 1, gamma = 2, so that c^2 = 2; `_err` ar
 from collections.abc import Iterator
 from math import hypot
 
+import numpy as np
 import pandas as pd
 
 from studies.kit import fits
@@ -74,12 +75,8 @@ WIDE = 4.0              # spacings: the polygon of a smaller circle is too coars
 
 def derive(tables: Tables) -> Rows:
     """Rows of the derived tables whose source is among the tables."""
-    rows = {}
-    for name, source, make in (("long_sound", "moving_sound", long_sound),
-                               ("drag_limits", "drag", drag_limits)):
-        if source in tables:
-            rows[name] = list(make(tables[source]))
-    return {name: some for name, some in rows.items() if some}
+    return {name: list(follows(tables[source])) for name, (source, follows) in DERIVED.items()
+            if source in tables}
 
 
 def long_sound(sound: pd.DataFrame) -> Iterator[Row]:
@@ -87,20 +84,15 @@ def long_sound(sound: pd.DataFrame) -> Iterator[Row]:
 
     The error of the limit is the difference of two extrapolations.
     """
-    short, middle, long = LONG
+    h = 1/np.array(LONG)
     for (motion, weight), group in sound.groupby(["motion", "weight"]):
-        of_waves = group.set_index("wavelength")
-        if set(LONG) <= set(of_waves.index):
-            speeds, errs = of_waves["speed"], of_waves["speed_err"]
-            speed = extrapolated(speeds, middle, long)
-            change = speed - extrapolated(speeds, short, middle)
-            err = hypot(change, 3*errs[long], 3*errs[middle])
+        waves = group[group["wavelength"].isin(LONG)].sort_values("wavelength")
+        if len(waves) == len(LONG):
+            speeds, errs = waves[["speed", "speed_err"]].to_numpy().T
+            speed = fits.eliminate(speeds[1:], h[1:], 2.0)
+            change = speed - fits.eliminate(speeds[:2], h[:2], 2.0)
+            err = hypot(change, *3*errs[1:])
             yield {"motion": motion, "weight": weight, "speed": speed, "speed_err": err}
-
-
-def extrapolated(speeds: pd.Series, a: int, b: int) -> float:
-    """Speed at 1/wavelength^2 = 0 from the wavelengths a and b."""
-    return float((b*b*speeds[b] - a*a*speeds[a])/(b*b - a*a))
 
 
 def drag_limits(drags: pd.DataFrame) -> Iterator[Row]:
@@ -114,3 +106,7 @@ def drag_limits(drags: pd.DataFrame) -> Iterator[Row]:
             published = Measured(*group[["published", "published_err"]].iloc[0])
             yield {"variant": variant, "fraction": fraction, "sizes": len(group),
                    **with_errors(limit=limit, error=limit/published - 1)}
+
+
+#: derived table -> its source, and the function that derives it
+DERIVED = {"long_sound": ("moving_sound", long_sound), "drag_limits": ("drag", drag_limits)}
