@@ -179,13 +179,13 @@ class MovingSound(Case, table="moving_sound", same="motion weight h wavelength")
 # --- positions ----------------------------------------------------------------------------------
 
 
-def sound_flow(x: np.ndarray, box: np.ndarray) -> tuple[np.ndarray, ...]:
+def sound(x: np.ndarray, box: np.ndarray) -> tuple[np.ndarray, ...]:
     """rho, v, T of a travelling sound wave: no phase of it is special."""
     wave = 0.02*np.sin(2*np.pi*x[:, 0]/box[0])
     return 1 + wave/C, np.stack([wave, 0*wave], axis=1), 1 + wave/C
 
 
-def vortex_flow(x: np.ndarray, box: np.ndarray) -> tuple[np.ndarray, ...]:
+def vortices(x: np.ndarray, box: np.ndarray) -> tuple[np.ndarray, ...]:
     """rho, v, T of Taylor-Green vortices with their steady pressure."""
     (X, Y), u = (2*np.pi*x/box).T, 0.1
     v = u*np.stack([np.sin(X)*np.cos(Y), -np.cos(X)*np.sin(Y)], axis=1)
@@ -195,12 +195,11 @@ def vortex_flow(x: np.ndarray, box: np.ndarray) -> tuple[np.ndarray, ...]:
 class Places(Case, table="accuracy", same="motion flow"):
     """Rms error of positions with new velocities [Eq. 41] over that with old ones [Eq. 40], against RK4.
 
-    All take as many steps; the error of RK4 is its difference from RK4 in half as many. start : function of
-    positions and box that gives rho, v, T, flow : its name.
+    All take as many steps; the error of RK4 is its difference from RK4 in half as many. flow : function of
+    positions and box that gives rho, v, T.
     """
     motion: str
-    flow: str
-    start: Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, ...]]
+    flow: Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, ...]]
     counts: tuple[int, int]
     law: ConstEta
     time: float
@@ -216,15 +215,14 @@ class Places(Case, table="accuracy", same="motion flow"):
         """Positions (n, 2) at the end."""
         points = lattice(self.counts)
         method = moving(MOTIONS[self.motion], points, Lucy.of(h=3.0), self.law, transport=Pairwise())
-        state = method.state(points.x, *self.start(points.x, points.box))
+        state = method.state(points.x, *self.flow(points.x, points.box))
         march(method, state, self.time/steps, steps, lambda state: None, integrator)
         return method.fields(state).x
 
 
 #: sound for one and a half periods: after whole periods the errors of some integrators are small by chance
 PLACES = (
-    Places(motion="literal", flow="sound", start=sound_flow, counts=(16, 7), law=STILL, time=13.0, steps=240),
-    Places(motion="constant-mass", flow="sound", start=sound_flow, counts=(16, 7), law=STILL, time=18.9,
-           steps=320),
-    Places(motion="constant-mass", flow="vortices", start=vortex_flow, counts=(12, 12),
-           law=ConstEta(0.2, 0.2), time=10.0, steps=320))
+    Places(motion="literal", flow=sound, counts=(16, 7), law=STILL, time=13.0, steps=240),
+    Places(motion="constant-mass", flow=sound, counts=(16, 7), law=STILL, time=18.9, steps=320),
+    Places(motion="constant-mass", flow=vortices, counts=(12, 12), law=ConstEta(0.2, 0.2), time=10.0,
+           steps=320))
