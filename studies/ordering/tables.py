@@ -112,7 +112,7 @@ def of_brackets(rows: pd.DataFrame) -> dict[str, Any]:
 
 def of_flows(tables: Tables) -> dict[str, Any]:
     """Rows derived from vortices (errors of velocity) and from convection (errors of K)."""
-    ke, parts = reference(), []
+    ke, parts = Measured(limit("ke"), limit("ke_err")), []
     if "vortices" in tables:
         vortices = tables["vortices"].rename(columns={"wavelength": "resolution", "velocity": "error"})
         parts.append(vortices.assign(flow="taylor-green", error_err=0.0))
@@ -122,11 +122,6 @@ def of_flows(tables: Tables) -> dict[str, Any]:
     means = flow_means(runs)
     return {"reference": [{"flow": "convection", **with_errors(ke=ke)}], "flows": means.to_dict("records"),
             "flow_slopes": list(flow_slopes(runs, means)), "cheapest": list(cheapest(means))}
-
-
-def reference() -> Measured:
-    """K of the grid of the study rb, extrapolated."""
-    return Measured(limit("ke"), limit("ke_err"))
 
 
 def convection(rows: pd.DataFrame, ke: float) -> pd.DataFrame:
