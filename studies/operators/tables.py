@@ -182,19 +182,9 @@ def shear_orders(rows: pd.DataFrame) -> Iterator[Row]:
         yield key | with_errors(order=order(group, "rows"))
 
 
-def maker_orders(rows: pd.DataFrame) -> Iterator[Row]:
-    """Orders of makers' errors in 1/cells, means at the finest."""
-    errors = rows.melt(["maker", "points", "cells"], ERRORS, "quantity", "error")
-    return in_cells(errors, MAKER_ORDERS)
-
-
-def wall_orders(rows: pd.DataFrame) -> Iterator[Row]:
-    """The same of heat through plates."""
-    return in_cells(rows.rename(columns={"wall": "error"}), WALL_ORDERS)
-
-
-def in_cells(errors: pd.DataFrame, table: Table) -> Iterator[Row]:
-    """Orders of errors in 1/cells, and means over seeds at the finest spacing."""
+def maker_orders(rows: pd.DataFrame, table: Table, columns: list[str]) -> Iterator[Row]:
+    """Orders of makers' errors, some columns, in 1/cells, and means over seeds at the finest spacing."""
+    errors = rows.melt(["maker", "points", "cells"], columns, "quantity", "error")
     for key, group in groups(errors, table, "cells"):
         finest = group[group["cells"] == group["cells"].max()]
         mean = combine([(error, 0.0) for error in finest["error"]])
@@ -208,4 +198,5 @@ DERIVED: dict[str, tuple[str, Callable[[pd.DataFrame], Iterable[Row]]]] = {
     "coefficients": ("waves", coefficients), "transport_orders": ("waves", transport_orders),
     "shear_means": ("shear", partial(seed_means, by=SHEAR_MEANS.key, columns=NORMS)),
     "shear_orders": ("shear", shear_orders),
-    "maker_orders": ("makers", maker_orders), "wall_orders": ("wall_heat", wall_orders)}
+    "maker_orders": ("makers", partial(maker_orders, table=MAKER_ORDERS, columns=ERRORS)),
+    "wall_orders": ("wall_heat", partial(maker_orders, table=WALL_ORDERS, columns=["wall"]))}
