@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from particles.integral.edge_makers import MAKERS
 from studies.build.setting import DISORDERS
-from studies.kit.figure import Drawing, Drawings, errorbar, figure, logarithmic, look
+from studies.kit.figure import Drawing, Drawings, bars, errorbar, figure, logarithmic, look
 
 KINDS = list(DISORDERS)
 FLOOR = 1e-16       # smaller values, of round-off, are drawn here
@@ -47,14 +47,13 @@ def growth(means: pd.DataFrame) -> Figure:
 
 def shear(rows: pd.DataFrame) -> Figure:
     """Rms errors of shear flows over the rows between the plates, by flow and by kind of points."""
-    rows = rows.sort_values("rows")
     page, panels = figure(len(FLOWS), len(WALLED), width=3.9, height=3.4, sharex=True, sharey=True)
     for line, flow in zip(panels, FLOWS, strict=True):
         for axes, points in zip(line, WALLED, strict=True):
             series = rows.query("flow == @flow and points == @points").groupby("time")
             for number, (time, group) in enumerate(series):
-                errorbar(axes, *group[["rows", "rms", "rms_err"]].to_numpy().T, number=number,
-                         linestyle=look(number)["linestyle"], label=rf"$t = {time:g}\,H^2/\nu$")
+                bars(axes, group, "rows", "rms", number=number, linestyle=look(number)["linestyle"],
+                     label=rf"$t = {time:g}\,H^2/\nu$")
             axes.plot([8, 64], [4e-3, 4e-3/64], color="grey", linestyle=":", marker="", label=r"rows$^{-2}$")
             axes.set_title(WALLED[points])
             logarithmic(axes, (8, 16, 32, 64))
