@@ -43,7 +43,9 @@ HUNDRED = (100/3)**(1/3)    # side of a box of 100 particles, as in the example 
 
 def cases(size: str) -> list[Case]:
     """Cases of a size; `quick` has fewer point sets, shorter batches, small boxes and three time steps."""
-    return [*formulas(), *printed(), *steps(), *(quick() if size == "quick" else paper())]
+    formulas = [Formula(name=name, value=value) for name, value in FORMULAS.items()]
+    steps = [Steps(wavenumber=k, dt=DT) for k in (0.02, 0.1, 0.4)]      # waves of 15 to 300 spacings
+    return [*formulas, *printed(), *steps, *(quick() if size == "quick" else paper())]
 
 
 def quick() -> list[Case]:
@@ -72,11 +74,6 @@ def paper() -> list[Case]:
           for one in GOOD)]
 
 
-def formulas() -> Iterator[Case]:
-    """Printed formulas, evaluated by arithmetic."""
-    return (Formula(name=name, value=value) for name, value in FORMULAS.items())
-
-
 def algebra(kinds: tuple[str, ...], counts: dict[int, tuple[int, ...]]) -> Iterator[Case]:
     """Exact partners on every edge maker, kind of points and dimension."""
     for (name, maker), kind, d in product(MAKERS.items(), kinds, counts):
@@ -91,11 +88,6 @@ def printed() -> Iterator[Case]:
     for (equation, term), reading, (d, h) in product(PRINTED, ("single", "doubled"), places):
         if not (term == "eta" and d == 1):      # there is no shear on a line
             yield PrintedWaves(equation=equation, term=term, reading=reading, d=d, h=h)
-
-
-def steps() -> Iterator[Case]:
-    """Time steps of waves of 15 to 300 spacings."""
-    return (Steps(wavenumber=k, dt=DT) for k in (0.02, 0.1, 0.4))
 
 
 def temperatures(dts: tuple[float, ...], *, side: float, steps: int) -> Iterator[Case]:
