@@ -20,7 +20,7 @@ from studies.build import SCENES, duration
 from studies.build.scenes import SOUND, Answer, Start, TaylorGreen, Tile
 from studies.judge import measures
 from studies.judge.contract import contract
-from studies.judge.measures import Numbers, Taken, Verdict
+from studies.judge.measures import Numbers, Verdict
 
 LEFT_OUT = "left out:"
 CROSSINGS = 20.0        # length of a run, in sound's crossings of the box: initial waves have time to grow
@@ -60,7 +60,8 @@ class Carried(TaylorGreen):
 
 
 class Rung(NamedTuple):
-    """A test. scene : makes it for a number of rows. every : tried with all numbers of rows."""
+    """A test. scene : makes it for a number of rows. every : tried with all numbers of rows, of which the
+    verdict is, else of the first alone."""
     name: str
     asks: str
     scene: Callable[[int], Any]
@@ -68,10 +69,6 @@ class Rung(NamedTuple):
     verdict: Callable[[Any], Verdict]
     rule: str
     every: bool = False
-
-    def judged(self, taken: Taken) -> Verdict:
-        """Verdict on all numbers of rows if ``every``, else on the first alone."""
-        return self.verdict(taken if self.every else taken[0][1])
 
 
 def flow(name: str, asks: str) -> Rung:
@@ -176,7 +173,7 @@ def judged(rung: Rung, takes: Sequence[Take]) -> Verdict:
     mine = [take for take in takes if take.rung == rung.name]
     faults = [f"{take.fault} ({take.rows} rows)" if rung.every else take.fault for take in mine if take.fault]
     taken = [(take.rows, take.numbers) for take in mine if not take.fault]
-    verdict = rung.judged(taken) if taken else Verdict("", None)
+    verdict = rung.verdict(taken if rung.every else taken[0][1]) if taken else Verdict("", None)
     if not faults:
         return verdict
     wrong = not all(fault.startswith(LEFT_OUT) for fault in faults)
