@@ -12,7 +12,6 @@ from PIL import Image
 
 from continuum.scene import RayleighBenard
 from studies.build.names import START_ENERGY
-from studies.kit.claim import paper_of
 from studies.kit.csvfile import read, write
 from studies.kit.figure import Drawing, Drawings
 from studies.kit.store import RESULTS
@@ -118,7 +117,6 @@ def test_every_figure_says_in_a_sentence_what_to_see(committed):
     (0.0349, 0.0445, "0.03(4)"), (math.nan, 0.1, "none")])
 def test_numbers_with_their_errors(value, err, said):
     assert with_error(value, err) == said
-    assert paper_of("Sangani & Acrivos 1982, Table 1") == "Sangani & Acrivos 1982"
 
 
 def test_results_as_they_are_make_a_page(committed):
