@@ -174,9 +174,8 @@ def layer(points: Points) -> tuple[RayleighBenard, np.ndarray]:
 def through_pairs(points: Points, maker: str) -> np.ndarray:
     """Nu at both plates, for smooth particles at rest."""
     scene, T = layer(points)
-    variant, fields = spam.TODAY[maker], (np.ones(len(T)), 0*points.x, T)
-    method = spam.method(scene, variant)
-    start = variant.transport.complete(spam.start(scene, x=points.x, fields=fields), 1.0, 1.0)
+    fields = np.ones(len(T)), 0*points.x, T
+    method, start, _ = spam.TODAY[maker].ready(scene, x=points.x, fields=fields)
     sums, state, _ = method.look(start)
     sums.prepare(state)
     return scene.L/scene.k/scene.dT*np.array([-side*PlateHeat(side)(sums, state) for side in (-1, 1)])
