@@ -60,8 +60,8 @@ def test_the_page_is_one_file_and_the_same_again(small):
 
 def test_the_page_begins_as_the_readme_does(small, monkeypatch):
     begins = text.opening(small)
-    assert begins.question.startswith("Do fluid particles converge") and begins.words.count("<li>") == 5
-    assert '<a class="word" href="#word-moving-delaunay"><code>moving-delaunay</code></a>' in begins.choice
+    assert begins["question"].startswith("Do fluid particles converge") and begins["words"].count("<li>") == 5
+    assert '<a class="word" href="#word-moving-delaunay"><code>moving-delaunay</code></a>' in begins["choice"]
     monkeypatch.setattr(text, "ROOT", small)
     (small/"README.md").write_text("# Title\n\nNo question.\n\n## More\n")
     with pytest.raises(NoReport, match=r"does not begin with a bold question.*: let it begin so"):

@@ -4,7 +4,7 @@ import os
 import re
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 from markdown_it import MarkdownIt
 from markupsafe import Markup
@@ -29,21 +29,15 @@ WIDTH, COLOURS = 960, 128
 SCROLL = '<div class="scroll" tabindex="0" role="region" aria-label="Table"><table>'
 
 
-class Opening(NamedTuple):
-    """First screen of the page: question, answer, table of methods to choose from."""
-    question: str
-    words: Markup
-    choice: Markup
-
-
-def opening(out: Path) -> Opening:
-    """First screen, from the beginning of README.md. Raises NoReport: this has another form."""
+def opening(out: Path) -> dict[str, str]:
+    """First screen, from the beginning of README.md: question, words with the answer, table of methods to
+    choose from. Raises NoReport: this has another form."""
     found = OPENING.search((ROOT/"README.md").read_text())
     if not found:
         raise NoReport("README.md does not begin with a bold question, words, an <img> and a table above its "
                        "first heading ##, of which the page makes its first screen: let it begin so")
     question, words_, choice = found.groups()
-    return Opening(question, html(words_, ROOT, out), html(choice, ROOT, out))
+    return {"question": question, "words": html(words_, ROOT, out), "choice": html(choice, ROOT, out)}
 
 
 def document(path: Path, out: Path) -> Markup:
