@@ -5,12 +5,7 @@ import numpy as np
 import pytest
 from crowd import goes_on_bitwise
 
-from particles.dissipative.dpd import (
-    Dpd,
-    configurational_temperature,
-    forces_squared,
-    laplacian,
-)
+from particles.dissipative.dpd import Dpd, configurational_temperature, forces_squared, laplacian
 from particles.dissipative.integrators import KickDriftFrictionDriftKick, Shardlow
 from particles.integrators import TwoStep
 from particles.run import Plan, Run, run

@@ -41,13 +41,7 @@ from studies.operators.makers import (
 )
 from studies.operators.points import LayerGrowth, sound
 from studies.operators.transport import euler_limit
-from studies.operators.weights import (
-    around,
-    gradient_symbol,
-    interpolated,
-    line_weight,
-    smoothed,
-)
+from studies.operators.weights import around, gradient_symbol, interpolated, line_weight, smoothed
 
 # --- weights --------------------------------------------------------------------------------------
 

@@ -69,8 +69,7 @@ def sizes(eos: Any, fields: Fields) -> np.ndarray:
 
 
 class WatchedRun(Case, same="scheme mode maker weight h points wall zeta seed steps claimed"):
-    """A long run from a random start. A kind of run gives its columns, among them `claimed`: the sums that it
-    claims to keep."""
+    """A long run from a random start. Each kind gives its columns; `claimed`: sums that it has to keep."""
     steps: int = 10_000
     seed: int = 1
     zeta = 0.0

@@ -71,8 +71,7 @@ def recorded(scene: Any, variant: Any) -> dict[str, Callable]:
 def seen(method: Any, state: np.ndarray) -> Fields:
     """Fields of a final state; for smooth particles the smoothed fields, as particles have noise."""
     if not isinstance(method, Spam):
-        fields: Fields = method.fields(state)
-        return fields
+        return method.fields(state)
     sums, ordered, _ = method.look(state)
     at = fields_at(sums, ordered, *state[:2])
     return Fields(state[:2].T, np.stack([at.vx, at.vy], axis=1), at.rho, at.T, method.m/at.rho)
