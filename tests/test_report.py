@@ -34,7 +34,7 @@ def small(tmp_path):
     out = tmp_path/"results"
     write(out/"rb/errors.csv", ERRORS, head=HEAD)
     write(out/"claims.csv", CLAIMS.assign(study="rb", statement="three <b>& more"), head=HEAD)
-    Image.new("RGB", (200, 100), "white").save(out/"rb/toy.png")
+    Image.new("RGB", (200, 100), "white").save(out/"rb/fig12.png")
     return out
 
 
@@ -55,7 +55,7 @@ def test_the_page_is_one_file_and_the_same_again(small):
     assert "three &lt;b&gt;&amp; more" in whole and "<b>& more" not in whole
     assert not any(link in whole for link in ('src="http', 'href="http', "@import", "url("))
     assert whole.count('<tr id="claim-') == 3 and "abc1234567" in whole
-    assert 'id="figure-rb-toy"' in whole and embedded(small/"rb/toy.png") in whole
+    assert 'id="figure-rb-fig12"' in whole and embedded(small/"rb/fig12.png") in whole
 
 
 def test_the_page_begins_as_the_readme_does(small, monkeypatch):
@@ -88,18 +88,17 @@ def toy(errors):
 
 
 def test_a_figure_is_shown_with_the_tables_and_the_code_that_its_study_lists(small, monkeypatch):
-    """Others with all tables of their study, and its question."""
+    """Others, such as fig12, which this study does not list, are not shown."""
     study = Study(name="rb", question="Why?", cases=lambda size: [], tables=[],
                   figures=Drawings(Drawing("toy", ("errors",), toy)))
     monkeypatch.setattr(inventory, "study_of", lambda part: study)
     write(small/"rb/more.csv", ERRORS, head=["commit def"])
-    Image.new("RGB", (20, 10)).save(small/"rb/old.png")
+    Image.new("RGB", (20, 10)).save(small/"rb/toy.png")
     part, = folders(small)
-    old, one = figures(part, claims_of(small))
+    one, = figures(part, claims_of(small))
     assert (one.caption, one.see, one.made) == ("K over the height.", "K over the height.", "abc1234567")
     assert [sheet.stem for sheet in one.sheets] == ["errors"]
     assert one.code[1] == "toy" and (small/one.code[0]).samefile(__file__)
-    assert len(old.sheets) == 2 and old.caption == f"old: {part.question}" and old.code is None
 
 
 def test_every_figure_says_in_a_sentence_what_to_see(committed):
@@ -132,8 +131,8 @@ def test_results_as_they_are_make_a_page(committed):
     assert not lost and len(links) > 200
     for part in committed:
         tables = {sheet.stem for sheet in part.sheets}
-        for name, drawing in inventory.drawings(part).items():
-            assert set(drawing.tables) <= tables, f"{part.name}/{name}"
+        for png, drawing in part.pictures.items():
+            assert set(drawing.tables) <= tables, png
 
 
 def test_a_film_shows_points_and_the_grid_and_is_the_same_again(tmp_path):
@@ -174,7 +173,7 @@ def test_a_report_without_results_says_what_to_run(tmp_path, capsys):
     ("claims.csv", None, "claims.csv does not exist"),
     ("rb/errors.csv", ERRORS.drop(columns="error_err"), "rb/errors.csv has no column error_err"),
     ("rb/errors.csv", 'a,b\n1,2\n3,4,5,6\n"', "rb/errors.csv is no table"),
-    ("rb/toy.png", "no picture", "toy.png is no picture")])
+    ("rb/fig12.png", "no picture", "fig12.png is no picture")])
 def test_a_file_that_is_missing_or_wrong(small, capsys, file, content, words):
     (small/file).unlink()
     if isinstance(content, str):

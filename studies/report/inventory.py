@@ -10,7 +10,7 @@ import pandas as pd
 from studies.kit.claim import COLUMNS
 from studies.kit.csvfile import TEXT, content, read
 from studies.kit.figure import Drawing
-from studies.kit.study import Study, names, study_of
+from studies.kit.study import names, study_of
 from studies.kit.table import STAMP
 
 #: folders that are not shown
@@ -76,12 +76,11 @@ class Sheet:
 
 
 class Folder(NamedTuple):
-    """A folder of results: its question, tables and figures, and the study that makes them, if any."""
+    """A folder of results: its question, its tables, and files of its figures with what draws them."""
     name: str
     question: str
     sheets: list[Sheet]
-    pictures: list[Path]
-    study: Study | None
+    pictures: dict[Path, Drawing]
 
 
 def folders(out: Path) -> list[Folder]:
@@ -100,14 +99,10 @@ def folder_of(path: Path) -> Folder:
     declared = {table.file: [*table.columns, *STAMP] for table in (study.tables if study else ())}
     files = sorted([*path.glob("*.csv"), *path.glob("*.csv.gz")])
     sheets = [Sheet(file, declared.get(file.name, ())) for file in files]
-    pictures = sorted(path.glob("*.png"), key=lambda png: (png.stem != "main", png.stem))
-    return Folder(path.name, study.question if study else OF_BENCH, sheets, pictures, study)
-
-
-def drawings(folder: Folder) -> dict[str, Drawing]:
-    """Figure -> its drawing, for figures that the study lists."""
-    listed = folder.study.figures.drawings if folder.study else ()
-    return {drawing.name: drawing for drawing in listed}
+    drawn = {path/f"{one.name}.png": one for one in (study.figures.drawings if study else ())}
+    order = sorted(drawn, key=lambda png: (png.stem != "main", png.stem))
+    pictures = {png: drawn[png] for png in order if png.exists()}
+    return Folder(path.name, study.question if study else OF_BENCH, sheets, pictures)
 
 
 def claims_of(out: Path) -> pd.DataFrame:

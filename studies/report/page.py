@@ -19,7 +19,7 @@ from studies.kit.claim import paper_of, places
 from studies.kit.csvfile import read
 from studies.kit.figure import caption
 from studies.report.equations import filled, short, signed, with_error
-from studies.report.inventory import Folder, NoReport, Sheet, claims_of, drawings, folders
+from studies.report.inventory import Folder, NoReport, Sheet, claims_of, folders
 from studies.report.tables import FILMS
 from studies.report.text import TEXTS, document, examples, opening, target
 
@@ -100,7 +100,7 @@ class Shown(NamedTuple):
     see: str
     caption: str
     sheets: list[Sheet]
-    code: tuple[str, str] | None
+    code: tuple[str, str]
 
     @property
     def name(self) -> str:
@@ -120,20 +120,15 @@ class Shown(NamedTuple):
 
 
 def figures(folder: Folder, claims: pd.DataFrame) -> list[Shown]:
-    """Figures of a folder; a figure that the study does not list has all tables of the folder."""
-    listed = drawings(folder)
+    """Figures of a folder."""
     see = tomllib.loads((PARTS/"figures.toml").read_text()).get(folder.name, {})
     shown = []
-    for png in folder.pictures:
-        caption_, sheets, code = f"{png.stem}: {folder.question}", folder.sheets, None
-        if png.stem in listed:
-            drawing = listed[png.stem]
-            file = inspect.getsourcefile(drawing.draw) or ""
-            code = os.path.relpath(file, png.parent.parent.resolve()), drawing.draw.__name__
-            caption_ = caption(drawing)
-            sheets = [sheet for sheet in sheets if sheet.stem in drawing.tables]
-        sentence = filled(see.get(png.stem, caption_), claims)
-        shown.append(Shown(png, size_of(png), sentence, caption_, sheets, code))
+    for png, drawing in folder.pictures.items():
+        file = inspect.getsourcefile(drawing.draw) or ""
+        code = os.path.relpath(file, png.parent.parent.resolve()), drawing.draw.__name__
+        sheets = [sheet for sheet in folder.sheets if sheet.stem in drawing.tables]
+        sentence = filled(see.get(png.stem, caption(drawing)), claims)
+        shown.append(Shown(png, size_of(png), sentence, caption(drawing), sheets, code))
     return shown
 
 
