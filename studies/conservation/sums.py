@@ -93,13 +93,12 @@ def in_parts(advance: Advance, state: np.ndarray, steps: int, look: Callable[[np
     before = 0
     for part in range(1, records + 1):
         number = steps*part//records - before
-        if number:
-            state, done = advance(state, number)
-            if done < number:
-                return before + done
-            look(state)
-            before += number
-            report(before/steps)
+        state, done = advance(state, number)
+        if done < number:
+            return before + done
+        look(state)
+        before += number
+        report(before/steps)
     return steps
 
 
@@ -199,8 +198,7 @@ class Unsymmetric(DihDrift, table="losses", same="maker points seed steps"):
         fluid, state, advance = self.begun()
         _, size, _ = sizes(fluid.eos, fluid.fields(state))
         momenta = [fsum(fluid.edges.V*state[1])]
-        looks = min(LOOKS, self.steps)
         in_parts(advance, state, self.steps, lambda now: momenta.append(fsum(fluid.edges.V*now[1])), report,
-                 looks)
-        reached = self.steps*(len(momenta) - 1)//looks
+                 LOOKS)
+        reached = self.steps*(len(momenta) - 1)//LOOKS
         yield {"reached": reached, "lost": abs(momenta[-1] - momenta[0])/size}
