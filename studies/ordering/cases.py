@@ -48,8 +48,7 @@ def surface(waves: Mapping[str, Sequence[int]]) -> Iterator[Case]:
         ranges = (*H, *BETWEEN) if disorder == "lattice" else H
         for edge in (*product(("renormalised",), ranges), *others):
             yield from on_points(runs.OperatorErrors, *edge, disorder, wavelengths)
-        if WAVE in wavelengths:     # where Eq. 45 does not hold
-            yield from on_points(runs.OperatorErrors, "plain", 1.2, disorder, [WAVE])
+        yield from on_points(runs.OperatorErrors, "plain", 1.2, disorder, [WAVE])     # Eq. 45 does not hold
 
 
 def on_points(case: type[runs.OnPoints], maker: str, h: float, disorder: str, wavelengths: Sequence[int],
