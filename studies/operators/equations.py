@@ -35,7 +35,6 @@ class Spectral(NamedTuple):
         """d f/d x_axis."""
         cells = self.shape[axis]
         k = 2*np.pi*np.fft.fftfreq(cells, 1/cells)
-        k[cells//2] = 0
         box = np.moveaxis(f.reshape(*self.shape, -1), axis, -1)
         slope = np.fft.ifft(1j*k*np.fft.fft(box)).real
         return np.moveaxis(slope, -1, axis).reshape(f.shape)
