@@ -39,7 +39,7 @@ VISCOSITIES = (0.0, 0.1)    # in rho c a
 
 
 class PointSet(Case, same="maker points d seed"):
-    """Base of measurements on the edges of one set of points; no rows where the maker has no edges.
+    """Base of measurements on the edges of one set of points.
 
     maker : one of `particles.integral.edge_makers.MAKERS`. h : range of the weight, in spacings.
     """
@@ -57,11 +57,7 @@ class PointSet(Case, same="maker points d seed"):
 
     def measure(self, report: Report) -> Iterator[Row]:
         points = self.points.make(self.counts, self.points.size, self.seed)
-        try:
-            edges = self.maker(points, self.weight.of(h=self.h, d=self.d))
-        except ArithmeticError:     # no such edges exist on these points: that is a result
-            return
-        yield from self.rows_of(points, edges)
+        return self.rows_of(points, self.maker(points, self.weight.of(h=self.h, d=self.d)))
 
     def rows_of(self, points: Points, edges: Edges) -> Iterator[Row]:
         """The rows measured on these points and edges."""
