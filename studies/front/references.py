@@ -29,7 +29,6 @@ from studies.build.setting import no_still_layer
 from studies.kit.stats import Measured
 
 Parts = dict[str, Any]
-NO_HISTORY = pd.DataFrame({"t": [0.0]})
 
 
 def solved(name: str, scene: Any) -> Parts:
@@ -45,7 +44,7 @@ def solved(name: str, scene: Any) -> Parts:
         raise ValueError(f"{name} stands for an ideal gas, not for {type(scene.eos).__name__}: take grid")
     began = process_time()
     parts = REFERENCES[name](scene)
-    return {"cpu_s": process_time() - began, **parts}
+    return {"cpu_s": process_time() - began, "history": pd.DataFrame({"t": [0.0]}), **parts}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -84,7 +83,7 @@ def spectral_gas(layer: Any) -> Parts:
     state = spectral(GasLaws(scene), round(scene.L))
     (x, y), (u, v, r, T) = (state.equations.x.points[:, None], state.equations.y.points), state.at[:, 0]
     L, T = scene.L, T + scene.T(scene.L*y)
-    return {"numbers": {"K": Measured(state.K), "Nu": Measured(state.Nu)}, "history": NO_HISTORY,
+    return {"numbers": {"K": Measured(state.K), "Nu": Measured(state.Nu)},
             "at": flat([L*x, -L*x], L*y, [u, -u], v, 1 + r, T, L**2*state.equations.weights)}
 
 
@@ -110,7 +109,7 @@ def boussinesq(scene: Any) -> Parts:
     state = steady(BoussinesqCase(ra=near.ra, pr=near.pr, rows=round(scene.L), box=Box(width=scene.aspect/2)))
     seen = state.observe()
     numbers = {"K": Measured(seen.K*near.speed**2), "Nu": Measured(1 + near.share*(seen.nu_bottom - 1))}
-    return {"numbers": numbers, "history": NO_HISTORY, "at": of_state(scene, state, near)}
+    return {"numbers": numbers, "at": of_state(scene, state, near)}
 
 
 class Nearest(NamedTuple):
@@ -150,7 +149,7 @@ def linear_theory(scene: Any) -> Parts:
                "growth": Measured(growth_rate(ra=near.ra, pr=near.pr, k=k)*np.sqrt(near.share))}
     x, y = lattice((round(scene.width), round(scene.L))).x.T
     T = scene.T_mean - scene.dT*y/scene.L
-    return {"numbers": numbers, "history": NO_HISTORY, "at": flat(x, y, 0.0, 0.0, 1.0, T, 1.0)}
+    return {"numbers": numbers, "at": flat(x, y, 0.0, 0.0, 1.0, T, 1.0)}
 
 
 REFERENCES: dict[str, Callable] = {"py-pde": py_pde, "boussinesq": boussinesq, "linear-theory": linear_theory,
