@@ -2,12 +2,11 @@
 import ast
 from functools import cache
 from graphlib import TopologicalSorter
-from pathlib import Path
 
 import pytest
 
-ROOT = Path(__file__).parent.parent
-PACKAGES = ("continuum", "particles", "studies")
+from studies.kit.key import CODE, PACKAGES
+
 #: rooms at the bottom -> all that they import besides: what a fluid is, and how code is compiled
 BOTTOM = {"continuum": (), "particles": ("continuum", "continuum.fluid", "continuum.jit"),
           "studies.kit": ("continuum", "continuum.jit")}
@@ -15,21 +14,11 @@ BOTTOM = {"continuum": (), "particles": ("continuum", "continuum.fluid", "contin
 BELOW, PAGE = ("studies.kit", "studies.build", "studies.front", "studies.judge"), "studies.report"
 
 
-def named(path: Path) -> str:
-    parts = path.relative_to(ROOT).with_suffix("").parts
-    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
-
-
-@cache
-def modules() -> dict[str, Path]:
-    return {named(path): path for package in PACKAGES for path in (ROOT/package).rglob("*.py")}
-
-
 @cache
 def imports(module: str) -> frozenset[str]:
     """Modules of the project that a module imports, within functions and for types, too."""
     found = set()
-    for node in ast.walk(ast.parse(modules()[module].read_text())):
+    for node in ast.walk(ast.parse(CODE.files[module].read_text())):
         if isinstance(node, ast.Import):
             found |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom):
@@ -48,7 +37,7 @@ def with_packages(module: str) -> list[str]:
 
 def longest_known(name: str) -> str:
     """The module that a dotted name is in or is; empty for one of no package here."""
-    while name and name not in modules():
+    while name and name not in CODE.files:
         name = name.rpartition(".")[0]
     return name
 
@@ -71,11 +60,11 @@ def allowed(module: str, other: str) -> bool:
 
 @pytest.mark.parametrize("package", PACKAGES)
 def test_imports_point_down(package):
-    wrong = [f"{module} -> {other}" for module in sorted(modules()) if module.split(".")[0] == package
+    wrong = [f"{module} -> {other}" for module in sorted(CODE.files) if module.split(".")[0] == package
              for other in sorted(imports(module)) if not allowed(module, other)]
     assert not wrong, "\n".join(wrong)
 
 
 def test_imports_have_no_circle():
-    graph = {module: imports(module) for module in modules()}
+    graph = {module: imports(module) for module in CODE.files}
     TopologicalSorter(graph).prepare()      # CycleError names one
