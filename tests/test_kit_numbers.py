@@ -43,7 +43,6 @@ def test_the_error_over_seeds_is_honest_with_and_without_scatter_between_runs():
 
 def test_means_of_what_does_not_fluctuate_or_is_too_short():
     assert stats.mean(np.full(50, 0.3)) == (0.3, 0.0)
-    assert stats.combine([(1.0, 0.2)]) == (1.0, 0.2)
     for wrong in (np.ones(9), [1.0]*20 + [math.nan]):
         with pytest.raises(ValueError, match="at least 10, all finite"):
             stats.mean(wrong)

@@ -87,9 +87,8 @@ def test_rows_that_differ_in_digits_that_are_not_kept_are_the_same(tmp_path):
     merge(path, RUNS, close, size="paper", command="something else")
     assert path.read_bytes() == text
     frame, _ = merge(path, RUNS, [{**long()[0], "ke": 0.5}], size="fine")
-    fine = frame[frame["size"] == "fine"]
-    assert len(frame) == 18 and fine[["who", "ra", "t", "ke"]].to_numpy().tolist() == [["spam", 1e4, 1.0,
-                                                                                        0.5]]
+    fine, = frame[frame["size"] == "fine"][RUNS.columns].to_numpy().tolist()
+    assert len(frame) == 18 and fine == ["spam", 1e4, 1.0, 0.5, "a"]
 
 
 PLAIN, PACKED = "squares.csv", "squares.csv.gz"
@@ -200,9 +199,7 @@ def test_claims_of_other_studies_stay(tmp_path):
     open_claim = Claim(id="d", source="RR98, Eq. 5", statement="smooth", undecidable="no number is printed")
     put_claims(path, judge([old[1], open_claim], Tables(), "rb"))
     frame = read(path)
-    names = "id source statement whose printed fixed measured err low high verdict reason study formula "\
-            "equation headline evidence"
-    assert " ".join(frame.columns) == names
+    assert tuple(frame.columns) == claims.COLUMNS
     assert list(frame.low.dropna()) == list(frame.low[frame.id.isin(["b", "z"])]) == [0.5, 0.5]
     assert list(zip(frame.study, frame.id, frame.verdict, frame.reason)) == [
         ("rb", "b", "undecidable", "run SIZE=paper"), ("rb", "d", "undecidable", "no number is printed"),
