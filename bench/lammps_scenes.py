@@ -158,8 +158,8 @@ def seconds(rows: int) -> Iterator[dict[str, Any]]:
 
 
 def advance(method: Any, first: np.ndarray, dt: float, steps: int) -> None:
-    """Ours, so many steps, a grid's block as flat as states of points."""
-    run(method, first.reshape(len(first), -1), Plan(dt=dt, steps=steps))
+    """Ours, so many steps."""
+    run(method, first, Plan(dt=dt, steps=steps))
 
 
 def keep(rows: list[dict[str, Any]]) -> None:

@@ -51,8 +51,7 @@ def rates(scene, name):
 def later(scene, name, steps):
     """Fields at the start and so many steps later."""
     method, start, dt = ready(scene, name)
-    first = start.reshape(len(start), -1)
-    return method.fields(first), method.fields(run(method, first, Plan(dt=dt, steps=steps)).by_id())
+    return method.fields(start), method.fields(run(method, start, Plan(dt=dt, steps=steps)).by_id())
 
 
 @pytest.mark.parametrize("name", EACH)

@@ -26,7 +26,7 @@ class InBlocks:
     def step(self, sums: "GridSums", state: np.ndarray, dt: float) -> None:
         """Advance a state in place."""
         if self.march is None:
-            self.march = sums.method.march(sums.method.block(state), dt)
+            self.march = sums.method.march(state, dt)
         self.march.S[:] = sums.method.block(state)
         self.march.advance(1)
         state[:] = self.march.S.reshape(4, -1)
@@ -41,7 +41,7 @@ class GridSums(Sums):
 
     def try_out(self, now: Any) -> None:
         """Load the compiled code without a step; it fills the ghosts of a copy."""
-        self.method.march(self.method.block(now.state))
+        self.method.march(now.state)
 
     def fault(self, state: np.ndarray, ids: np.ndarray) -> str:
         """Message on the first node whose state is not valid; empty if there is none."""
@@ -50,10 +50,7 @@ class GridSums(Sums):
 
 @dataclass(frozen=True, kw_only=True)
 class Gridded:
-    """The gas on square cells, `rows` over the height; states are blocks (4, rows + 2, columns + 2).
-
-    In the time loop of particles a state is such a block, flattened to (4, n).
-    """
+    """The gas on square cells, `rows` over the height; a state is a flat block (4, rows + 2, columns + 2)."""
     scene: Any
     rows: int
     continuity: Any = FluxForm()  # noqa: RUF009 (immutable)
@@ -73,19 +70,19 @@ class Gridded:
         """A state (4, n) in the shape of a block."""
         return state.reshape(4, self.rows + 2, -1)
 
-    def march(self, S: np.ndarray, dt: float = 1.0) -> March:
-        """A time march with steps dt that starts from a copy of a block."""
-        return March(self.scene, S.copy(), self.continuity, dt)
+    def march(self, state: np.ndarray, dt: float = 1.0) -> March:
+        """A time march with steps dt that starts from a copy of a state or block."""
+        return March(self.scene, self.block(state).copy(), self.continuity, dt)
 
-    def go(self, S: np.ndarray, dt: float, steps: int) -> np.ndarray:
-        """The block after a number of steps."""
-        march = self.march(S, dt)
+    def go(self, state: np.ndarray, dt: float, steps: int) -> np.ndarray:
+        """The state after a number of steps, in the grid's own loop."""
+        march = self.march(state, dt)
         march.go(steps)
-        return march.S
+        return march.S.reshape(4, -1)
 
-    def fields(self, S: np.ndarray) -> Fields:
+    def fields(self, state: np.ndarray) -> Fields:
         """Fields at the nodes, each node once."""
-        return at_nodes(unblock(self.scene, self.block(S)))
+        return at_nodes(unblock(self.scene, self.block(state)))
 
 
 @limit_of.register
@@ -116,7 +113,7 @@ class GridForm(NamedTuple):
             first = block(beginning(scene, method.rows, self))
             if scene.slide:     # which steps do not change
                 first[VX, -1] = scene.slide
-        return stepped(method, method.march(first).S, self.step)
+        return stepped(method, method.march(first).S.reshape(4, -1), self.step)
 
 
 #: "fig10" is for the temperatures of Fig. 10, which tables have in no column: only this name tells them

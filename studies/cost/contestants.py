@@ -153,7 +153,8 @@ def on_grid(flow: ExactFlow, form: Any, size: int, seed: int, first: np.ndarray 
 
 def of_mean_one(flow: ExactFlow, form: Any, size: int, seed: int) -> Problem:
     """As `on_grid`, from densities whose mean over cells is 1."""
-    first = form.ready(flow.scene(size)).start
+    ready = form.ready(flow.scene(size))
+    first = ready.method.block(ready.start)
     first[RHO] /= first[RHO, 1:-1, 1:-1].mean()
     return on_grid(flow, form, size, seed, first)
 

@@ -141,7 +141,7 @@ def named(method: Any) -> Any:
 
 
 def prepared(scene: Any, chosen: Any, seed: int = 1) -> Ready:
-    """A method with its initial state in a scene, for `run`; states of grids are flattened to (rows, n).
+    """A method with its initial state in a scene, for `run`.
 
     Particles of one mass start with the density of the scene. In sound, moving points start on a lattice,
     as jitter would exceed the wave.
@@ -151,8 +151,7 @@ def prepared(scene: Any, chosen: Any, seed: int = 1) -> Ready:
         begun["x"], begun["fields"] = of_one_mass(scene, seed)
     elif isinstance(scene, Sound) and isinstance(chosen, (FacesMotion, DriftMotion)):
         begun["x"] = lattice((scene.width, scene.L)).x
-    made = ready(scene, chosen, seed, **begun)
-    return made._replace(start=made.start.reshape(len(made.start), -1))
+    return ready(scene, chosen, seed, **begun)
 
 
 def planned(scene: Any, chosen: Any, longest: float, time: float | None = None,

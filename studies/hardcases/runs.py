@@ -94,7 +94,7 @@ class Hard(Case):
 def followed(ready: Ready, time: float, samples: int, look: Callable, report: Report | None = None,
              watch: Watch = ()) -> Course:
     """Run any method; look(method, state) is recorded at the start and after each sample."""
-    method, start = ready.method, ready.start.reshape(len(ready.start), -1)      # flat, if a block of a grid
+    method, start = ready.method, ready.start
     seen = [look(method, start)]
 
     def see(sums: Any, state: np.ndarray) -> float:

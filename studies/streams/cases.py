@@ -94,8 +94,7 @@ class Ride(Case):
         """Smooth particles have one mass, and are placed by the scene's density."""
         alike = isinstance(self.variant, Variant)
         begun = dict(zip(("x", "fields"), of_one_mass(self.scene, self.seed))) if alike else {}
-        made = self.variant.ready(self.scene, self.seed, **begun)
-        return made._replace(start=made.start.reshape(len(made.start), -1))
+        return self.variant.ready(self.scene, self.seed, **begun)
 
     def steps(self, ready: Ready) -> int:
         """Number of steps to the end of the scene."""
@@ -143,7 +142,7 @@ def advanced(ready: Ready, dt: float, steps: int, report: Report | None = None) 
     method, start = ready.method, ready.start
     if not isinstance(method, Gridded):
         return seen(method, run(method, start, Plan(dt=dt, steps=steps), report).by_id())
-    return method.fields(method.go(method.block(start), dt, steps))
+    return method.fields(method.go(start, dt, steps))
 
 
 def cases(size: str) -> list[Case]:
