@@ -11,6 +11,7 @@ from continuum.published import published
 from continuum.scene import ROLL_ENERGY
 from particles.weights import WEIGHTS
 from studies.kit.figure import width
+from studies.kit.stats import Measured, with_errors
 
 START_ENERGY = ROLL_ENERGY
 START_JITTER = 0.2     # displacement at the start, in spacings: parts of a perfect lattice stay frozen
@@ -76,10 +77,8 @@ def explained(text: str = "") -> str:
 
 def one_energy(ke: float, err: float) -> dict[str, float]:
     """Energy columns of a method without noise: particles, field and mean flow have the same K."""
-    columns = {"ke_fluctuation": 0.0}
-    for name in ("ke", "ke_field", "ke_mean"):
-        columns |= {name: ke, f"{name}_err": err}
-    return columns
+    same = dict.fromkeys(("ke", "ke_field", "ke_mean"), Measured(ke, err))
+    return {"ke_fluctuation": 0.0} | with_errors(**same)
 
 
 def scene_columns(scene: Any) -> dict[str, Any]:

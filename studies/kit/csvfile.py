@@ -23,7 +23,6 @@ TEXT = "# text columns:"                    # line of the head that programs rea
 LIBRARIES = ("numpy", "scipy", "numba", "py-pde")     # whose versions the head has
 AGAIN = "remove it and run the study again: finished cases are kept"
 EMPTY = "(none)"                            # stands for an empty text: an empty cell is a missing number
-NOT_PACKED = (gzip.BadGzipFile, EOFError, zlib.error)
 #: texts that pandas reads as a missing number
 MISSING = ("", "NA", "N/A", "n/a", "NULL", "null", "None", "<NA>")
 
@@ -38,7 +37,6 @@ def read(path: Path, columns: Iterable[str] = ()) -> pd.DataFrame:
     Raises FileNotFoundError. OtherTable: the file is no table, has text among numbers, or lacks some of
     ``columns``.
     """
-    path = Path(path)
     if not path.exists():
         raise FileNotFoundError(f"{path} does not exist: make study-{path.parent.name} writes it")
     try:
@@ -49,7 +47,7 @@ def read(path: Path, columns: Iterable[str] = ()) -> pd.DataFrame:
         frame[text] = frame[text].replace(EMPTY, "").fillna("")
         for name in frame.columns.difference(text) if text else ():
             pd.to_numeric(frame[name])
-    except (ValueError, LookupError, *NOT_PACKED) as error:     # of pandas, and of bytes that are no text
+    except (ValueError, LookupError, gzip.BadGzipFile, EOFError, zlib.error) as error:
         raise OtherTable(f"{path} is no table ({str(error).strip()}): {AGAIN}") from error
     if missing := [name for name in columns if name not in frame]:
         raise OtherTable(f"{path} has no column {', '.join(missing)}: it has an older layout; {AGAIN}")

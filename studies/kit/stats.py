@@ -174,11 +174,9 @@ def seed_means(rows: pd.DataFrame, by: Sequence[str], columns: Sequence[str]) ->
     for key, group in rows.groupby(list(by)):
         row: dict[str, Any] = dict(zip(by, key))
         row["seeds"] = len(group)
-        no_errors = pd.Series(0.0, index=group.index)
         for column in columns:
-            errors = group.get(f"{column}_err", no_errors)
-            runs = list(zip(group[column], errors))
-            row[column], row[f"{column}_err"] = combine(runs)
+            errors = group.get(f"{column}_err", [0.0]*len(group))
+            row[column], row[f"{column}_err"] = combine(list(zip(group[column], errors)))
         yield row
 
 

@@ -77,7 +77,7 @@ def as_text(case: Case, outcome: Outcome, cpu_s: float) -> str:
     """An outcome as JSON with commit, versions, machine, date and CPU seconds, compile time included."""
     content = {"case": parameters(case), "commit": commit(), "versions": versions(),
                "cpu": cpu(), "date": now(), "cpu_s": cpu_s, "rows": outcome.rows}
-    return json.dumps(content, default=lambda value: value.tolist(), indent=1)      # for numpy's numbers
+    return json.dumps(content, default=lambda value: value.item(), indent=1)        # for numpy's numbers
 
 
 def seal(case: Case, content: dict[str, Any]) -> str:
@@ -90,9 +90,6 @@ def content_of(case: Case, folder: Path) -> dict[str, Any]:
     content = json.loads((folder/f"{case.key}.json").read_text())
     if not isinstance(content, dict) or content.pop("seal", "") != seal(case, content):
         raise ValueError("it is not as it was written")
-    values = [value for rows in content["rows"].values() for row in rows for value in row.values()]
-    if not all(isinstance(value, str | int | float | None) for value in [content["cpu_s"], *values]):
-        raise ValueError("it has more than numbers and texts")
     return content
 
 
