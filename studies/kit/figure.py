@@ -15,9 +15,8 @@ from matplotlib.transforms import ScaledTranslation
 from PIL import Image
 
 from studies.kit.csvfile import write_atomic
+from studies.kit.stats import Numbers
 from studies.kit.table import Tables, check_once
-
-Numbers = Sequence[float] | np.ndarray | pd.Series
 
 #: Okabe and Ito's colours, which colour-blind readers can tell apart, with dark red instead of yellow
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000", "#882255")

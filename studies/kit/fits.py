@@ -1,5 +1,4 @@
 """Polynomials and power laws by least squares, limits of fine grids; errors are 95 % half widths."""
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -9,9 +8,8 @@ from numpy.polynomial.polynomial import polyvander as vander
 from scipy.optimize import brentq
 from scipy.special import stdtrit
 
-from studies.kit.stats import CannotTell, Measured
+from studies.kit.stats import CannotTell, Measured, Numbers
 
-Numbers = Sequence[float] | np.ndarray | pd.Series
 ORDERS = 0.1, 12.0      # range in which an observed order is sought
 NEAR = 0.25             # an observed order nearer to 2 means that the grids are fine enough to assume 2
 

@@ -11,6 +11,8 @@ import pandas as pd
 from scipy.fft import irfft, next_fast_len, rfft
 from scipy.special import stdtrit
 
+Numbers = Sequence[float] | np.ndarray | pd.Series
+
 
 class CannotTell(Exception):
     """The numbers available do not answer the question, for the reason given."""
@@ -106,7 +108,7 @@ def window_and_tau(x: np.ndarray, c: float = 6.0) -> tuple[int, float]:
     return window, max(0.5, float(tau[window]))*(1 + (2*window + 1)/len(x))
 
 
-def mean(x: Sequence[float] | np.ndarray) -> Measured:
+def mean(x: Numbers) -> Measured:
     """Mean of a steady, correlated series and its error.
 
     The estimated variance of the mean has itself a relative variance 2 (2W + 1)/n, as a chi^2 with
@@ -125,7 +127,7 @@ def mean(x: Sequence[float] | np.ndarray) -> Measured:
     return Measured(float(x.mean()), float(t*x.std()*np.sqrt(2*tau/len(x))))
 
 
-def settled(x: Sequence[float] | np.ndarray, most: float = np.inf) -> tuple[Measured, bool]:
+def settled(x: Numbers, most: float = np.inf) -> tuple[Measured, bool]:
     """Mean of a series and whether its halves agree; if not, half of their difference adds to the error.
 
     Two halves of a steady series differ by more than 1.5 times the root of the sum of squares of their 95 %
@@ -155,7 +157,7 @@ def combine(runs: Sequence[tuple[float, float]]) -> Measured:
     return Measured(float(values.mean()), max(within, between))
 
 
-def over_seeds(values: Sequence[float] | np.ndarray | pd.Series) -> Measured:
+def over_seeds(values: Numbers) -> Measured:
     """Mean over seeds of values that have no error of their own: t(n - 1) times the scatter over sqrt n.
 
     Raises CannotTell: there is only one seed.
