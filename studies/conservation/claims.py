@@ -8,6 +8,8 @@ from studies.kit.ask import Value, largest, largest_of, one, over_seeds, power
 from studies.kit.claim import Claim
 
 SUMS = ("mass", "momentum", "energy")
+
+
 def kept(name: str, *claimed: str) -> Value:
     """Largest change of a sum over all runs on fixed points that claim to keep it and reached the end."""
     return largest("drift", name, "reached == steps", err="err", scheme=("layer", "dih"),
