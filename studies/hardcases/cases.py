@@ -69,7 +69,7 @@ LARGER = {**{(name, "Sod"): (200,) for name in STABLE}, (STABLE[0], "Sod"): (200
           **{(name, "shocked ripple"): (800,) for name in (STABLE[0], BLENDED)}}
 ROOMY = 2*impacts.HEIGHT     # where gases part, points that move are 3 spacings apart, and reach half of that
 #: smooth flows: scene, rows, methods; convection on fixed irregular points would take a quarter of an hour
-FLOWS = (("rayleigh-benard", (48,), EDGES[:1]), ("rayleigh-benard", (25,), EDGES[2:]),
+FLOWS = (("rayleigh-benard", (48, 64), EDGES[:1]), ("rayleigh-benard", (25,), EDGES[2:]),
          ("taylor-green", (32, 64), EDGES), ("sound", (32,), EDGES))
 
 #: layers that also run with 32 rows
