@@ -34,7 +34,6 @@ def means(*rows: dict) -> Tables:
     return Tables({"means": full, "errors": spam.assign(energy="Kg", reference_err=0.0)})
 
 
-
 def test_flows_with_other_rolls_are_not_compared():
     def said(rolls: int) -> dict:
         row = {**particles(1e4), "ke": 0.3*K, "ke_field": 0.2*K, "ke_err": 1e-7, "rolls": rolls}

@@ -24,6 +24,7 @@ def toy(order: int, space: float = 1e-3, limit: float = 1.0, chaotic: bool = Fal
         if dt > 0.5:
             raise Divergence(3, "gone")
         return space + dt**order
+
     def judge(state):
         return Result({"q": np.array([state])})
     return Problem(1, 0.0, limit, 1.0, go, judge, tuple, chaotic=chaotic)

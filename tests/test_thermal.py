@@ -46,6 +46,7 @@ def test_steps_have_the_order_of_their_integrator(kind, order):
     """Of a pendulum that swings wide, once to and fro."""
     def rates(y, out):
         out[:] = y[1], -np.sin(y[0])
+
     def end(steps):
         y = np.array([2.0, 0.0])
         for _ in range(steps):

@@ -153,4 +153,3 @@ class Exchange:
 def stages(terms: tuple, law: Any, n: int, threads: Threads, *more: Any) -> tuple[Stage, ...]:
     """Stages of all terms. more : how stages read pairs that are not stored edges."""
     return tuple(stage for term in terms for stage in stages_of(term, law, n, threads, *more))
-

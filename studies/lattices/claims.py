@@ -89,6 +89,7 @@ LATTICES = (
           because="beyond 1 it is the particles that clump, not the fluid"),
 )
 
+
 def fluctuations(name: str, step: float) -> Iterator[Claim]:
     """Of neighbours' distances, below and above the pressure at which the flow freezes."""
     source, printed = "KHP95 Sec. IV", "of the order of 10%"

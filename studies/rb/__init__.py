@@ -62,6 +62,8 @@ def beside(tried: Sequence[Any], here: Tables, others: Tables) -> Iterator[str]:
     apart = (kin.resolution - points.resolution.iloc[0]).abs()
     nearest = kin.loc[apart.sort_values(kind="stable").index].drop_duplicates(SAME)
     yield from lines(pd.concat([nearest, limit]), right)
+
+
 def lines(frame: pd.DataFrame, right: float) -> Iterator[str]:
     """Rows, K with its error and how far it is off, words for the method; the largest K first."""
     columns = [*SAME, "resolution", "ke_field", "ke_field_err"]

@@ -30,11 +30,9 @@ ENERGIES = {"kp": ("ke", "$K_p$, all particles"), "kg": ("ke_field", "$K_g$, smo
 NOT_STEADY = "not steady: halves of the mean differ"
 
 
-
 def reference(tables: Tables, **scene: Any) -> pd.DataFrame:
     """The compressible grid, extrapolated, by Ra."""
     return rows(tables, "means", **GRID, **scene, resolution=np.inf).sort_values("ra")
-
 
 
 def errors(tables: Tables, **scene: Any) -> pd.DataFrame:

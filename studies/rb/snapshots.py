@@ -65,7 +65,6 @@ def correlation(a: np.ndarray, b: np.ndarray) -> float:
     return float(np.sum(a*b)/sqrt(np.sum(a*a)*np.sum(b*b)))
 
 
-
 def field_errors(tables: Tables, means: pd.DataFrame) -> Iterator[dict[str, Any]]:
     """One row for each point of particles in `fields` of which the finest grid has the same flow."""
     tables = Tables({**tables, "means": means})
@@ -152,4 +151,3 @@ def density_beside(at: Fields, plate: Any) -> float:
     mean = at["rho"].mean(axis=1)[::1 if plate == "lower" else -1]
     places = len(mean)*0.5/50 - 0.5       # from the first place, in distances of places
     return mean[0] + places*(mean[1] - mean[0])  # type: ignore[no-any-return]
-
