@@ -163,11 +163,6 @@ STABLE_CLAIMS = (
           because="5 %: by which 2.5 % more rows lessen an error of second order",
           statement=f"{FLUX}: errors of a vortex of 64 rows and of a sound wave of 32 over those without, "
                     "the largest of points on a lattice, jittered and moving"),
-    Claim(id="own-stable-moving-convection", source="RR98 Sec. III", after=SEEN,
-          undecidable="a third of the 0.3 % by which 25 rows are off was asked for, 1 +- 0.001; the start in "
-                      "the table has 0.9996, had 0.9989 with another mean of bends, where three more starts, "
-                      "in no table, had 1.0015, 1.0004, 0.9992: one start tells no more",
-          statement=f"{WORDS[EDGES[-1]]}, with the flux, 25 rows: K at Ra 10 000 over that without"),
     Claim(id="own-stable-blended-convection-24", source="RR98 Sec. III", expect=1.0, within=0.005,
           value=over(BLENDED, STABLE[0], "rayleigh-benard", 24),
           because="a quarter of what the mean pressure alone changes: 2 % at 25 rows, as rows^-2",

@@ -5,6 +5,7 @@ from itertools import product
 from typing import Any
 
 from continuum.scene import RayleighBenard, Walls
+from studies.build import variant
 from studies.build.fixed import SCHEMES
 from studies.build.moving import CARRIAGES, DRIFT_MOTIONS, MOTIONS
 from studies.kit.case import Case
@@ -53,13 +54,16 @@ def points() -> Iterator[Case]:
 
 
 def carried() -> Iterator[Case]:
-    """Points that move with their triangulation, also with shorter steps."""
+    """Points that move with their triangulation, also with shorter steps and with an entropy-stable flux."""
     for ras, heights, seeds, times, box in CARRIED:
         for ra, rows, seed in product(ras, heights, seeds):
             keep = seed == 1 and rows in (25, 40) and ra in (5e3, 1e4) and not box
             yield CarriedRun(scene=RayleighBenard(ra=ra, L=float(rows), **box), seed=seed, keep=keep, **times)
     for name, rows in product(sorted(CARRIAGES.keys() - {"moving-delaunay"}), (16, 25)):
         yield CarriedRun(scene=RayleighBenard(ra=1e4, L=float(rows)), variant=CARRIAGES[name])
+    for seed in range(1, 9):        # single starts differ by as much as the flux is allowed to change
+        yield CarriedRun(scene=RayleighBenard(ra=1e4, L=25.0), seed=seed,
+                         variant=variant("moving-delaunay-entropy-stable"))
 
 
 def on_points(where: RayleighBenard) -> Iterator[Case]:
