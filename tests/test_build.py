@@ -76,6 +76,14 @@ def test_heat_goes_in_below_and_out_above_at_rest(name, scene):
     assert through == pytest.approx([1, -1], abs=1e-3)
 
 
+@pytest.mark.parametrize("name", ["fixed-jittered-delaunay", "fixed-random-delaunay", "relaxed-delaunay"])
+def test_no_point_shuns_the_seam_of_a_torus(name):
+    """Of 144 points six lie within a quarter of a spacing of it; between plates none does."""
+    y = ready(TaylorGreen(L=12), name).method.x[:, 1]
+    assert (np.abs(y) > 6 - 0.25).any()
+    assert np.abs(ready(LAYER, name).method.x[:, 1]).max() <= 7 - 0.25
+
+
 def test_a_scene_that_a_method_cannot_take_is_refused():
     for name in ("fixed-lattice", "fixed-jittered-plates", "moving", "moving-literal"):
         with pytest.raises(ValueError, match=r"take sides = Walls\(\): take grid, spam, moving-delaunay$"):

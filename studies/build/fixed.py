@@ -28,7 +28,7 @@ from studies.build.setting import (
     inside,
     no_layer,
     no_still_layer,
-    positions,
+    relaxed_random,
     shifted,
     sticking,
 )
@@ -37,25 +37,32 @@ OF_LIMIT = 0.8      # time step over its stability limit: the flow is steady, it
 
 
 def hard_core(width: float, height: float, size: float, seed: int) -> np.ndarray:
-    """Random points (n, 2) between plates, no two nearer than `size` spacings."""
-    return inside(height, random((round(width), round(height)), size, seed).x)
+    """Random points (n, 2) in a periodic box, no two nearer than `size` spacings."""
+    return random((round(width), round(height)), size, seed).x
+
+
+@cache
+def evened(width: float, height: float, size: float, seed: int) -> np.ndarray:
+    """The same (n, 2), relaxed until each is surrounded evenly."""
+    return relaxed_random((round(width), round(height)), size, seed).x
 
 
 @cache
 def settled(width: float, height: float, size: float, seed: int) -> np.ndarray:
     """Random points (n, 2) between plates, relaxed with mirror images until each is surrounded evenly."""
-    x, shift, mirror = hard_core(width, height, size, seed), np.array([0.0, height/2]), np.array([1.0, -1.0])
-    both = of_positions(np.concatenate([x - shift, (x - shift)*mirror]), (width, 2*height))
+    x, shift = inside(height, hard_core(width, height, size, seed)), np.array([0.0, height/2])
+    both = of_positions(np.concatenate([x - shift, (x - shift)*[1, -1]]), (width, 2*height))
     return inside(height, relaxed(both, WendlandC2.of(h=3.0), sweeps=4000).x[:len(x)] + shift)
 
 
 class Scheme(NamedTuple):
     """One way to make points and edges.
 
-    size : disorder of the points, in spacings. share : part of friction and heat along edges, the rest is
-    nested. mended : friction along edges heats as the stress does. held : plates are rows of held points, in
-    place of mirror images behind them. kind : class of the method with images or in a periodic box.
-    lacks : function of a scene that names the part which the scheme cannot take, empty if none.
+    size : disorder of the points, in spacings; points : their places in a periodic box. share : part of
+    friction and heat along edges, the rest is nested. mended : friction along edges heats as the stress does.
+    held : plates are rows of held points, in place of mirror images behind them. kind : class of the method
+    with images or in a periodic box. lacks : function of a scene that names the part which the scheme cannot
+    take, empty if none.
     """
     name: str
     make: Callable = renormalised
@@ -64,7 +71,7 @@ class Scheme(NamedTuple):
     size: float = 0.0
     mended: bool = True
     share: float = 1.0
-    points: Callable = positions
+    points: Callable = shifted
     held: bool = False
     kind: Any = Layer
     lacks: Callable[[Any], str] = no_layer
@@ -114,12 +121,13 @@ def fluid(scene: Any, scheme: Scheme, seed: int = 1) -> Layer | Stream:
 
 def layer(scene: Any, scheme: Scheme, seed: int) -> Layer:
     """The method between plates with mirror images behind them, or in a periodic box."""
-    box, weight, place = (scene.width, scene.L), scheme.weight.of(h=scheme.h), scheme.points
+    box, weight = (scene.width, scene.L), scheme.weight.of(h=scheme.h)
     if isinstance(scene.sides, Torus):
-        points = of_positions((shifted if place is positions else place)(*box, scheme.size, seed), box)
+        place = evened if scheme.points is settled else scheme.points
+        points = of_positions(place(*box, scheme.size, seed), box)
         x, edges, beyond = points.x, scheme.make(points, weight), NONE_BEYOND
     else:
-        x = inside(scene.L, place(*box, scheme.size, seed))
+        x = inside(scene.L, scheme.points(*box, scheme.size, seed))
         edges, beyond = between_plates(scheme.make, x, *box, weight)
     kind: Any = partial(Driven, slide=(0.0, scene.slide)) if scene.slide else scheme.kind
     return kind(x=x, edges=edges, beyond=beyond, eos=scene.eos, law=scene.law, g=scene.g,

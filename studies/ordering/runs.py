@@ -23,7 +23,7 @@ from particles.run import Divergence, Plan, run
 from particles.weights import Lucy
 from studies.build.fixed import Scheme, hard_core, settled
 from studies.build.measure import ended, followed, rolls
-from studies.build.setting import BREADTH, Disorder, positions
+from studies.build.setting import BREADTH, Disorder, shifted
 from studies.kit.case import Case, Outcome, Report
 from studies.kit.table import Row
 
@@ -153,7 +153,7 @@ def decayed(vortex: Vortex, points: Points, edges: Edges, report: Report) -> tup
 
 #: kinds of irregular points: makers and size of their disorder, in spacings
 POINTS: dict[str, tuple[Callable, float]] = {
-    "jittered-0.3": (positions, 0.3), "random": (hard_core, 0.5), "relaxed": (settled, 0.5)}
+    "jittered-0.3": (shifted, 0.3), "random": (hard_core, 0.5), "relaxed": (settled, 0.5)}
 
 
 def on_lattice(h: float) -> Scheme:
