@@ -7,11 +7,11 @@ Density is summed, V = m/rho. Particles move with v~ = v + d, and P is taken rel
     P~ = (rho_j P_i + rho_i P_j)/(rho_i + rho_j)                                          [Eq. 7]
 
 The paper's P0 = rho0 c0^2/gamma is the pressure of our gas at its mean state. `LessStatic` with fraction 1
-subtracts all of P0, as the paper's P = c0^2 (rho - rho0) does; its work is then by gradients of v, so that
-energy is not conserved exactly. tau is half of the paper's time step, as in its kick from v to v~ [Eq. 15];
-this step is its acoustic limit, 0.25 a/c of each particle, whatever dt is. Friction and heat are those of
-`Direct`, in place of Adami's harmonic mean. Each particle of a pair gets half of the work of its forces. The
-paper's walls extrapolate P by gravity; here images copy it.
+subtracts all of P0, as the paper's P = c0^2 (rho - rho0) does. What is subtracted works by div v~, as volumes
+change; by div v it would heat by d^2/tau per mass. tau is half of the paper's time step, as in its kick from
+v to v~ [Eq. 15]; this step is its acoustic limit, 0.25 a/c of each particle, whatever dt is. Friction and heat
+are those of `Direct`, in place of Adami's harmonic mean. Each particle of a pair gets half of the work of its
+forces. The paper's walls extrapolate P by gravity; here images copy it.
 
 As in the paper, forces by A lack v div(rho d): rates are Galilean invariant only where A is zero. Energy has
 no such term: v~ carries heat. A flux e d without mass would heat by e div d, and e, unlike v, is not small.
@@ -21,8 +21,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from continuum.jit import jit
+from particles.observe import heat_flow
 from particles.pairs import pair_term, sweep
-from particles.smooth.sums import Direct, Led, sound
+from particles.smooth.sums import Direct, Led, _moving, sound
 from particles.threads import Threads
 
 COURANT = 0.25/2    # tau over a/c
@@ -66,12 +67,22 @@ class TransportVelocity(Led):
                              f"{method.static.P0:g}: give static = LessStatic(fraction, P0, 0.0) with P0 > 0")
         self.even = np.empty((self.around.rows, 2))
 
+    def prepare(self, state: np.ndarray) -> None:
+        self.densities(state)       # gradients follow d
+
+    def gradients(self) -> None:
+        """Gradients of v~ and T, for the work of the subtracted pressure, too."""
+        self.exchange(self.less)
+
     def exchange(self, less: np.ndarray) -> tuple[Any, np.ndarray]:
         around, method, (_, records) = self.around, self.method, super().exchange(less)
         self.threads(sound, len(around.x), method.eos, around.rho, around.T, records)
         self.threads(sweep, self.n, Background(), records, around.pairs, self.even)
         self.threads(_carry, self.n, method.static.P0, np.sqrt(method.m), self.even, records)
         self.mirror()
+        vx, vy, kind = around.vx + records["dx"], around.vy + records["dy"], method.gradients
+        self.threads(_moving, len(around.x), kind, vx, vy, around.T, around.rho, self.moving)
+        self.threads(sweep, around.rows, kind, self.moving, around.pairs, self.slopes)
         return Transported(), records
 
 
@@ -82,3 +93,11 @@ def _carry(first, last, P0, root_m, even, records):
         a = records[i]
         f = -COURANT*root_m*np.sqrt(a.irho)/a.c*P0
         a.dx, a.dy = f*even[i, 0], f*even[i, 1]
+
+
+def transported_heat(sums: Any, state: np.ndarray) -> float:
+    """`heat_flow` with what d adds: rho d_y (e + v^2/2 + g y), and the work of the subtracted pressure."""
+    method, (_, y, vx, vy, e), d = sums.method, state, sums.records["dy"][:sums.n]
+    static = method.static.fraction*(method.static.P0 - method.static.rho0*method.g*y)
+    added = d*(e + (vx**2 + vy**2)/2 + method.g*y + static/sums.around.rho[:sums.n])
+    return heat_flow(sums, state) + float(method.m*added.sum()/(method.box[0]*method.box[1]))

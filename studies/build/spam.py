@@ -18,7 +18,7 @@ from particles.smooth.riemann import LowDissipationSums
 from particles.smooth.shifting import DeltaPlus
 from particles.smooth.spam import LessStatic, Spam
 from particles.smooth.sums import Direct, Nested
-from particles.smooth.transport import TransportVelocity
+from particles.smooth.transport import TransportVelocity, transported_heat
 from particles.terms import ArithmeticGradients, Gradients
 from particles.walls.fixed import fixed_plates
 from particles.walls.mirror import Odd
@@ -111,6 +111,15 @@ class Variant(NamedTuple):
         return self.walls in (images_odd, images_odd_own)
 
 
+class Transporting(Variant):
+    """A variant whose masses move with v + d, which its flux of heat counts."""
+    __slots__ = ()
+
+    @property
+    def series(self) -> dict[str, Any]:
+        return super().series | {"heat": transported_heat}
+
+
 PRINTED = Variant("printed")
 VARIANTS = {v.name: v for v in (
     PRINTED,
@@ -146,9 +155,11 @@ TODAY = {v.name: v._replace(weight=WendlandC2, walls=images_odd) for v in (
     Variant("MFM-adiabatic", transport=AdiabaticMfm),
     Variant("riemann", transport=LowDissipationSums),
     Variant("delta-plus", transport=DeltaPlus),
-    Variant("transport-velocity", transport=TransportVelocity, fraction=1.0, hydrostatic=0.0,
-            step=STEPPED*OF_LIMIT),
-    Variant("transport-velocity-whole", transport=TransportVelocity),
+    Transporting("transport-velocity", transport=TransportVelocity, fraction=1.0, hydrostatic=0.0,
+                 step=STEPPED*OF_LIMIT),
+    Transporting("transport-velocity-hydrostatic", transport=TransportVelocity, fraction=1.0,
+                 step=STEPPED*OF_LIMIT),
+    Transporting("transport-velocity-whole", transport=TransportVelocity),
 )}
 #: images copy P, though it has a slope: particles sink to a plate, and densities by continuity do not rise
 TODAY["delta-plus-own-pressure"] = TODAY["delta-plus"]._replace(name="delta-plus-own-pressure",
