@@ -7,11 +7,14 @@ Density is summed, V = m/rho. Particles move with v~ = v + d, and P is taken rel
     P~ = (rho_j P_i + rho_i P_j)/(rho_i + rho_j)                                          [Eq. 7]
 
 The paper's P0 = rho0 c0^2/gamma is the pressure of our gas at its mean state. `LessStatic` with fraction 1
-subtracts all of P0, as the paper's P = c0^2 (rho - rho0) does. What is subtracted works by div v~, as volumes
-change; by div v it would heat by d^2/tau per mass. tau is half of the paper's time step, as in its kick from
-v to v~ [Eq. 15]; this step is its acoustic limit, 0.25 a/c of each particle, whatever dt is. Friction and heat
-are those of `Direct`, in place of Adami's harmonic mean. Each particle of a pair gets half of the work of its
-forces. The paper's walls extrapolate P by gravity; here images copy it.
+subtracts all of P0, as the paper's P = c0^2 (rho - rho0) does. What it subtracts works by div v~, as volumes
+change: by div v it would heat by d^2/tau per mass. Under gravity it needs rho0, too: where P < P0, forces
+pull particles together, and what d lifts gains potential energy for nothing.
+
+tau is half of the paper's time step, as in its kick from v to v~ [Eq. 15]; this step is its acoustic limit,
+0.25 a/c of each particle, whatever dt is. Friction and heat are those of `Direct`, in place of Adami's
+harmonic mean. Each particle of a pair gets half of the work of its forces. The paper's walls extrapolate P by
+gravity; here images copy it.
 
 As in the paper, forces by A lack v div(rho d): rates are Galilean invariant only where A is zero. Energy has
 no such term: v~ carries heat. A flux e d without mass would heat by e div d, and e, unlike v, is not small.
