@@ -145,6 +145,7 @@ VARIANTS = {v.name: v for v in (
 #: methods in use today: friction and heat along pairs; the mean of image and particle is the plate's value
 TODAY = {v.name: v._replace(weight=WendlandC2, walls=images_odd) for v in (
     Variant("sph", transport=Direct),
+    Variant("sph-less-static", transport=Direct, fraction=1.0, step=STEPPED*OF_LIMIT),
     Variant("sumB", transport=Corrected),
     Variant("RKGC", transport=Reversed),
     Variant("bonet-lok", transport=Symmetrised),
