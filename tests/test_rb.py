@@ -75,7 +75,7 @@ def test_what_is_tried_out_stands_beside_its_kin_with_the_nearest_rows():
 
 def test_a_run_that_diverges_is_a_row_without_energies(tmp_path):
     """Images with T -> 2 T_w - T and a pressure of their own get T < 0 behind the cold plate: at this Ra from
-    any start, while at Ra 10 000 it is round-off that decides."""
+    each of three starts, while at Ra 10 000 it is round-off that decides."""
     where = rb.RayleighBenard(ra=1e6, L=12.0)
     case = SpamRun(scene=where, variant=spam.VARIANTS["walls-odd-own-pressure"])
     [row] = case.run(lambda done: None, tmp_path).rows["kinetic_energy"]

@@ -68,7 +68,7 @@ LARGER = {**{(name, "Sod"): (200,) for name in STABLE}, (STABLE[0], "Sod"): (200
           (STABLE[0], "Mach 10"): (400,), (HELD, "Mach 3 body"): (192,), (STABLE[0], "100 turns"): (32,),
           **{(name, "shocked ripple"): (800,) for name in (STABLE[0], BLENDED)}}
 ROOMY = 2*impacts.HEIGHT     # where gases part, points that move are 3 spacings apart, and reach half of that
-#: smooth flows: scene, rows, methods; convection on irregular points takes long, or several starts (study rb)
+#: smooth flows: scene, rows, methods; convection of moving points, which takes several starts, is in study rb
 FLOWS = (("rayleigh-benard", (48, 64), EDGES[:1]),
          ("taylor-green", (32, 64), EDGES), ("sound", (32,), EDGES))
 
