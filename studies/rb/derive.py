@@ -16,7 +16,9 @@ from studies.rb.tables import rows as rows_of
 
 Row = dict[Any, Any]
 GRIDS = ("compressible", "boussinesq", "pypde-compressible")
-CORRECTED = ("sumB", "corrected", "CRKSPH", "MFM", "MFM-adiabatic")     # that may have a limit
+#: smooth particles that may have a limit
+CORRECTED = ("sumB", "corrected", "CRKSPH", "MFM", "MFM-adiabatic", "sph-less-static",
+             "transport-velocity-hydrostatic")
 SERIES = [name for name in POINT if name != "resolution"]
 ENERGIES = ["ke", "ke_field", "ke_mean", "nu"]
 HALF = "-half-step"
