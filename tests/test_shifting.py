@@ -19,11 +19,11 @@ from continuum.fluid import (
     viscosity,
 )
 from particles.limits import by_trial, largest_step, step_limit
-from particles.observe import fields_at, particle_kinetic
+from particles.observe import fields_at, heat_flow, particle_kinetic
 from particles.smooth.riemann import LowDissipationSums
 from particles.smooth.shifting import DeltaPlus
 from particles.smooth.spam import LessStatic, Spam
-from particles.smooth.transport import TransportVelocity
+from particles.smooth.transport import TransportVelocity, transported_heat
 from particles.walls.fixed import fixed_plates
 from particles.walls.mirror import Odd, plates
 from particles.weights import Lucy, WendlandC2
@@ -31,14 +31,15 @@ from particles.weights import Lucy, WendlandC2
 WALLS = {"closed": closed(Odd()), "periodic": everywhere(BOX),
          "layer": PERIODIC + plates(BOX[1], HOT, COLD, Odd())}
 EOS = {"closed": VanDerWaals(), "periodic": IdealGas(), "layer": IdealGas()}
-P0 = LessStatic(0.7, 1.2, 0.0)
+P0 = LessStatic(0.7, 1.2, 1.0)
 KINDS = pytest.mark.parametrize("kind", [DeltaPlus, TransportVelocity])
 
 
 def spam(kind, name="periodic", static=P0, **more):
     weight = Lucy if name == "periodic" else WendlandC2
     known = {"weight": weight.of(h=3.0), "eos": EOS[name], "law": ConstEta(0.4, 0.3), "box": BOX, "m": MASS,
-             "walls": WALLS[name], "static": static if kind is TransportVelocity else LessStatic(0.0, 0.0)}
+             "walls": WALLS[name], "static": static if kind is TransportVelocity else LessStatic(0.0, 0.0),
+             "g": 0.05*(name == "layer")}
     return Spam(**known | {"transport": kind} | more)
 
 
@@ -61,6 +62,7 @@ def twin(method, state):
     all_energy = ((push*p.v[:n, None]).sum(axis=2) + heat + carry(E)).sum(axis=1)
     a /= m[:, None]
     de = (all_energy - E[:n]*gain)/m - (p.v[:n]*a).sum(axis=1)
+    a[:, 1] -= method.g*(1 - method.static.fraction*method.static.rho0/p.rho[:n])
     return np.array([*(state[2:4] + shift.T), *a.T, de, *((rho, gain) if len(state) > 5 else ())])
 
 
@@ -96,7 +98,7 @@ def transported(method, p, state, w, g, d, F, dv, c):
     A = np.einsum("i,ia,ib->iab", rho, p.v, s)
     P = (rho*p.P[:n, None] + rho[:n, None]*p.P)/(rho[:n, None] + rho)
     push = both[..., None]*(np.einsum("ijab,ijb->ija", (A[:n, None] + A)/2, g) - P[..., None]*g)
-    left = plain.static_pressure(method, 0.0)*V[:n, None]*np.sqrt(V[:n, None]*V)
+    left = plain.static_pressure(method, state[1])[:, None]*V[:n, None]*np.sqrt(V[:n, None]*V)
     work = left*((dv + s[:n, None] - s)*g).sum(axis=2) - 0.5*(push*dv).sum(axis=2)
     return (np.full(n, m), V[:n, None]*V, s[:n], push, work, None,
             lambda q: np.zeros((n, len(p.x))))
@@ -113,6 +115,31 @@ def test_equals_the_slow_twin(walls, kind):
     for fast, exact in zip(out, twin(method, state), strict=True):
         assert close(fast, exact) < 1e-11
     assert abs(out[:2] - state[2:4]).max() > 1e-3
+
+
+def test_a_transport_velocity_keeps_energy_but_for_the_work_of_what_its_forces_lack():
+    method = spam(TransportVelocity)
+    state = state_of(method)
+    sums, state, _ = prepare(method, state)
+    out = np.empty_like(state)
+    sums.rates(state, out)
+    mass, V = method.m, method.m/sums.around.rho[:sums.n]
+    work = plain.static_pressure(method, state[1])*V*(sums.slopes[:sums.n, 0] + sums.slopes[:sums.n, 5])
+    assert abs(work.sum()) > 1e-3
+    assert mass*(out[4] + (state[2:4]*out[2:4]).sum(axis=0)).sum() == pytest.approx(-work.sum(), rel=1e-10)
+
+
+def test_heat_that_a_transport_velocity_carries_is_counted():
+    method = spam(TransportVelocity, "layer")
+    state = state_of(method)
+    sums, state, _ = prepare(method, state)
+    sums.look_at(state)
+    d = sums.velocity(state)[1] - state[3]
+    more = state[4] + (state[2]**2 + state[3]**2)/2 + method.g*state[1]
+    V = method.m/sums.around.rho[:sums.n]
+    carried = (d*(method.m*more + V*plain.static_pressure(method, state[1]))).sum()/(BOX[0]*BOX[1])
+    assert abs(carried) > 1e-4
+    assert transported_heat(sums, state) - heat_flow(sums, state) == pytest.approx(carried, rel=1e-8)
 
 
 @pytest.mark.parametrize("static", [LessStatic(0.0, 1.2, 0.0), LessStatic(1.0, 1.2, 0.0)])

@@ -24,7 +24,8 @@ class LessStatic(NamedTuple):
     """Subtract `fraction` of the static pressure P0 - rho0 g y from P, and its force from gravity.
 
     This lowers the background pressure, which holds particles on a lattice [KHP95, Sec. IV]; fraction = 0 is
-    the printed scheme. The subtracted part works by div v of the second sum: energy is not exactly conserved.
+    the printed scheme. The subtracted part works by div v of the second sum (`TransportVelocity`: of
+    v + d), so that energy is not exactly conserved.
     """
     fraction: float
     P0: float

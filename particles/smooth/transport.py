@@ -7,9 +7,9 @@ Density is summed, V = m/rho. Particles move with v~ = v + d, and P is taken rel
     P~ = (rho_j P_i + rho_i P_j)/(rho_i + rho_j)                                          [Eq. 7]
 
 The paper's P0 = rho0 c0^2/gamma is the pressure of our gas at its mean state. `LessStatic` with fraction 1
-subtracts all of P0, as the paper's P = c0^2 (rho - rho0) does. What it subtracts works by div v~, as volumes
-change: by div v it would heat by d^2/tau per mass. Under gravity it needs rho0, too: where P < P0, forces
-pull particles together, and what d lifts gains potential energy for nothing.
+subtracts all of P0, as the paper's P = c0^2 (rho - rho0) does. Ps, which it subtracts, works by div v~, as
+volumes change: by div v it would heat by d^2/tau per mass, as the rest of P does. Energy then grows by the
+sum of V (rho - rho0) g d_y: under gravity rho0 has to be the density at rest.
 
 tau is half of the paper's time step, as in its kick from v to v~ [Eq. 15]; this step is its acoustic limit,
 0.25 a/c of each particle, whatever dt is. Friction and heat are those of `Direct`, in place of Adami's
@@ -67,7 +67,7 @@ class TransportVelocity(Led):
         super().__init__(method, n, threads)
         if not method.static.P0 > 0:
             raise ValueError("a transport velocity is of a background pressure, got static.P0 = "
-                             f"{method.static.P0:g}: give static = LessStatic(fraction, P0, 0.0) with P0 > 0")
+                             f"{method.static.P0:g}: give static = LessStatic(fraction, P0, rho0), P0 > 0")
         self.even = np.empty((self.around.rows, 2))
 
     def prepare(self, state: np.ndarray) -> None:
@@ -99,7 +99,10 @@ def _carry(first, last, P0, root_m, even, records):
 
 
 def transported_heat(sums: Any, state: np.ndarray) -> float:
-    """`heat_flow` with what d adds: rho d_y (e + v^2/2 + g y), and the work of the subtracted pressure."""
+    """`heat_flow` with what d adds: rho d_y (e + v^2/2 + g y), and the work of the subtracted pressure.
+
+    Two parts of second order in d stay out: stress(d).v, and rho v^2 d_y of the forces by A.
+    """
     method, (_, y, vx, vy, e), d = sums.method, state, sums.records["dy"][:sums.n]
     static = method.static.fraction*(method.static.P0 - method.static.rho0*method.g*y)
     added = d*(e + (vx**2 + vy**2)/2 + method.g*y + static/sums.around.rho[:sums.n])

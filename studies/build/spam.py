@@ -112,7 +112,7 @@ class Variant(NamedTuple):
 
 
 class Transporting(Variant):
-    """A variant whose masses move with v + d, which its flux of heat counts."""
+    """A variant whose masses move with v + d: its heat flux counts what d carries."""
     __slots__ = ()
 
     @property
