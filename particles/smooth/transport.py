@@ -101,7 +101,7 @@ def _carry(first, last, P0, root_m, even, records):
 def transported_heat(sums: Any, state: np.ndarray) -> float:
     """`heat_flow` with what d adds: rho d_y (e + v^2/2 + g y), and the work of the subtracted pressure.
 
-    Two parts of second order in d stay out: stress(d).v, and rho v^2 d_y of the forces by A.
+    Left as they are: -rho v^2 d_y, which the forces by A carry, and that the stress is that of v + d.
     """
     method, (_, y, vx, vy, e), d = sums.method, state, sums.records["dy"][:sums.n]
     static = method.static.fraction*(method.static.P0 - method.static.rho0*method.g*y)
