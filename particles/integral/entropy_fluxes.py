@@ -55,18 +55,19 @@ class Dissipation(NamedTuple):
 
 
 @formula
-def over_mean(a, b):
-    """ln(b/a)/2 over (b - a)/(b + a), by a series that converges where a is near b    [Ismail & Roe 2009]
+def log_mean(a, b):
+    """(b - a)/ln(b/a), by a series that converges where a is near b    [Ismail & Roe 2009]
 
     Without a branch: a is first multiplied by the power of two, from the bits of both, that brings it near b.
     """
     two = (np.float64(b).view(np.uint64) + HALF - np.float64(a).view(np.uint64)) >> MANTISSA
     k, near = np.float64(np.int64(two) - 1023), a*np.uint64(two << MANTISSA).view(np.float64)
-    x, y = (b - a)/(b + a), (b - near)/(b + near)
+    y = (b - near)/(b + near)
     f = y*y
     s = 1 + f*(1/3 + f*(1/5 + f*(1/7 + f*(1/9 + f*(1/11 + f*(1/13 + f*(1/15 + f*(1/17 + f*(1/19 + f*(
         1/21 + f/23))))))))))
-    return s if k == 0 else (0.5*LN2*k + y*s)/x
+    # ln(b/a) = k ln 2 + 2 y s; where k = 0, y (b + a) = b - a
+    return 0.5*(a + b if k == 0 else b - a)/(s if k == 0 else 0.5*LN2*k + y*s)
 
 
 @generic
@@ -75,8 +76,7 @@ def log_means(eos, a, b):
     for fluids that have an entropy s."""
 
 
-log_means.of(IdealGas)(lambda eos, a, b: (0.5*(a.rho + b.rho)/over_mean(a.rho, b.rho),
-                                          eos.cv*2*a.T*b.T/(a.T + b.T)*over_mean(a.T, b.T)))
+log_means.of(IdealGas)(lambda eos, a, b: (log_mean(a.rho, b.rho), eos.cv*a.T*b.T/log_mean(a.T, b.T)))
 
 
 @pair_term(Logarithmic, 4)

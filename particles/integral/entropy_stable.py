@@ -31,17 +31,13 @@ def _sound(first, last, eos, points):
 
 
 @jit
-def _differ(first, last, slopes, beyond, points, differences):
-    """V grad v as friction and heating see it: that of the flow, except for images, of velocity u, not v."""
-    for i in range(first, last):
-        q, d = slopes[i], differences[i]
-        d[0], d[1], d[2], d[3] = q[1], q[5], q[2], q[6]
+def _see_images(slopes, beyond, points):
+    """Correct V grad v to what friction and heating see: images have the velocity u, not v."""
     rows, image, sx, sy = beyond
     for k in range(len(rows)):
-        if first <= rows[k] < last:
-            b, d = points[image[k]], differences[rows[k]]
-            du, dv = b.ux - b.vx, b.uy - b.vy
-            d[0], d[1], d[2], d[3] = d[0] + sx[k]*du, d[1] + sy[k]*du, d[2] + sx[k]*dv, d[3] + sy[k]*dv
+        b, d = points[image[k]], slopes[rows[k]]
+        du, dv = b.ux - b.vx, b.uy - b.vy
+        d[0], d[1], d[2], d[3] = d[0] + sx[k]*du, d[1] + sy[k]*du, d[2] + sx[k]*dv, d[3] + sy[k]*dv
 
 
 @jit
@@ -68,8 +64,7 @@ class Stable(Limits, FixedSums):
         super().__init__(method, threads)  # type: ignore[call-arg]
         n, beyond = self.n, getattr(method, "beyond", NONE_BEYOND)
         image = getattr(self, "image", NOWHERE)
-        self.beyond, self.differences = (beyond.i, n + image, *(beyond.S.T/2).copy()), np.zeros((n, 4))
-        self.before = np.zeros((4, n))
+        self.beyond, self.before = (beyond.i, n + image, *(beyond.S.T/2).copy()), np.zeros((4, n))
         self.set_limits(method.flow)
         self.points = np.zeros(len(self.points), Point)
         self.points["g"][n:] = -self.push[1]
@@ -92,10 +87,10 @@ class Stable(Limits, FixedSums):
         threads(sweep, n, Slopes(), points, self.edges, self.slopes)
         threads(divided, n, self.slopes, self.at.V, points)
         _mirrored(self.images.origin, points, n)
-        threads(_differ, n, self.slopes, self.beyond, points, self.differences)
+        _see_images(self.slopes, self.beyond, points)
         for stage in self.exchange.stages:
             if isinstance(stage, Heating):
-                stage.use(self.differences, self.at)
+                stage.use(self.slopes, self.at)
             elif not isinstance(stage, OwnPressure):
                 stage.prepare(self.at)
 

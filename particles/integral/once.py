@@ -17,7 +17,7 @@ from particles.neighbours import u32, u64
 from particles.pairs import Face, Faces, pair_at, rate, sweep
 from particles.threads import Threads
 
-FEW = 2         # edges of a block that dissipate: if more do, dissipation is computed for the whole block
+FEW = 16         # edges of a block that dissipate: if more do, dissipation is computed for the whole block
 #: antisymmetric terms of transport: one end gains what the other loses
 ALIKE = Friction, Conduction, Mending
 Sent = np.dtype([(name, "f8") for name in ("m", "px", "py", "e")])
@@ -149,7 +149,7 @@ def _receive(first, last, own, slopes, edges, once, sent, total):
             q, sign = sent[once.edge[k]], once.sign[k]
             m, px, py, e = m + sign*q.m, px + sign*q.px, py + sign*q.py, e + sign*q.e
         total[i, 0], total[i, 3] = m, e
-        total[i, 1], total[i, 2] = px - own*slopes[i, 3], py - own*slopes[i, 7]
+        total[i, 1], total[i, 2] = px - own*slopes[i, 6], py - own*slopes[i, 7]
 
 
 class Sending(Exchange):

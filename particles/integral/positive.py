@@ -27,7 +27,7 @@ PART, OLD = 0.5, (0.0, 0.0, 2/3, 0.0)
 
 
 class Slopes(NamedTuple):
-    """V times the gradients of rho, v and P, by differences."""
+    """V times the gradients of v, rho and P by differences, d_x u, d_y u, d_x v, d_y v, d_x rho, ..."""
 
 
 class Sound(NamedTuple):
@@ -48,7 +48,7 @@ class Limited(NamedTuple):
 @pair_term(Slopes, 8)
 def _(term, a, b, ab):
     x, y, rho, u, v, P = ab.sx, ab.sy, b.rho - a.rho, b.vx - a.vx, b.vy - a.vy, b.P + b.hydro - a.P
-    return x*rho, x*u, x*v, x*P, y*rho, y*u, y*v, y*P
+    return x*u, y*u, x*v, y*v, x*rho, y*rho, x*P, y*P
 
 
 @pair_term(Sound, 1)
@@ -152,8 +152,8 @@ def divided(first, last, slopes, V, points):
     """Gradients of points, from sums of `Slopes`."""
     for i in range(first, last):
         a, q, f = points[i], slopes[i], 1/V[i]
-        a.rho_x, a.u_x, a.v_x, a.P_x = f*q[0], f*q[1], f*q[2], f*q[3]
-        a.rho_y, a.u_y, a.v_y, a.P_y = f*q[4], f*q[5], f*q[6], f*q[7]
+        a.u_x, a.u_y, a.v_x, a.v_y = f*q[0], f*q[1], f*q[2], f*q[3]
+        a.rho_x, a.rho_y, a.P_x, a.P_y = f*q[4], f*q[5], f*q[6], f*q[7]
 
 
 @jit

@@ -7,7 +7,7 @@ the mean density is then clipped to the range of both, and entropy is not conser
 import numpy as np
 
 from continuum.fluid import VanDerWaals
-from particles.integral.entropy_fluxes import acoustics, log_means, over_mean
+from particles.integral.entropy_fluxes import acoustics, log_mean, log_means
 from particles.integral.positive import KEPT, above_cold, crowded, share, share_of
 
 SOFT = 1e-3         # attraction leaves at least this part of the dP/drho of hard discs
@@ -19,10 +19,10 @@ def _(eos, a, b):
     - 2 a rho/T + const.: terms in D(rho) = u_a u_b D(rho/u) give rho*, then terms in D(1/T) give e*."""
     u_a, u_b, beta, rho = 1 - eos.b*a.rho, 1 - eos.b*b.rho, 0.5/a.T + 0.5/b.T, 0.5*(a.rho + b.rho)
     room, pull = 1/(u_a*u_b), 2*eos.a*beta
-    log = over_mean(a.rho, b.rho)/rho + eos.b*2*over_mean(u_a, u_b)/(u_a + u_b)     # D ln(rho/u)/D(rho)
+    log = 1/log_mean(a.rho, b.rho) + eos.b/log_mean(u_a, u_b)       # D ln(rho/u)/D(rho)
     mean = (room - pull*rho)/(eos.b*room + log - pull)
     mean = min(max(mean, min(a.rho, b.rho)), max(a.rho, b.rho))
-    return mean, (eos.cv*over_mean(a.T, b.T)/beta - 2*eos.a*rho
+    return mean, (eos.cv*a.T*b.T/log_mean(a.T, b.T) - 2*eos.a*rho
                   + 0.5*eos.a*(a.rho*a.rho + b.rho*b.rho)/mean)
 
 
