@@ -74,7 +74,7 @@ class Variant(NamedTuple):
     """One way to build the method; the defaults are the scheme as printed with the walls of Fig. 3.
 
     weight : a class of `particles.weights`; h : its range. step : time step over its limit. fraction : share
-    of the static pressure that is left out, and of the gravity on a fluid of density `hydrostatic` with it.
+    of the static pressure that is left out, and of the gravity on a fluid of density rho0 with it.
     begin : (scene, x) -> (rho, v, T) at the start; None for the scene's own.
     """
 
@@ -85,7 +85,7 @@ class Variant(NamedTuple):
     gradients: Any = Gradients()
     transport: type[Nested] | type[Direct] = Nested
     fraction: float = 0.0
-    hydrostatic: float = 1.0
+    rho0: float = 1.0
     step: float = OF_LIMIT
     begin: Callable | None = None
 
@@ -156,7 +156,7 @@ TODAY = {v.name: v._replace(weight=WendlandC2, walls=images_odd) for v in (
     Variant("MFM-adiabatic", transport=AdiabaticMfm),
     Variant("riemann", transport=LowDissipationSums),
     Variant("delta-plus", transport=DeltaPlus),
-    Transporting("transport-velocity", transport=TransportVelocity, fraction=1.0, hydrostatic=0.0,
+    Transporting("transport-velocity", transport=TransportVelocity, fraction=1.0, rho0=0.0,
                  step=STEPPED*OF_LIMIT),
     Transporting("transport-velocity-hydrostatic", transport=TransportVelocity, fraction=1.0,
                  step=STEPPED*OF_LIMIT),
@@ -197,7 +197,7 @@ def method(scene: Any, variant: Variant) -> Spam:
     return Spam(weight=weight.of(variant.h), eos=eos, law=scene.law, walls=walls,
                 box=(scene.width, scene.L), g=scene.g, gradients=variant.gradients,
                 transport=variant.transport,
-                static=LessStatic(variant.fraction, float(p), variant.hydrostatic))
+                static=LessStatic(variant.fraction, float(p), variant.rho0))
 
 
 @cache
