@@ -196,7 +196,7 @@ def joint() -> Iterator[Case]:
 
 
 #: smooth particles as people use them -> most rows; fewer of readings that only compare
-CORRECTED = {"sph": 70, "sph-less-static": 50, "RKGC": 70, "bonet-lok": 35, "sumB": 70, "corrected": 100,
+CORRECTED = {"sph": 70, "sph-less-static": 70, "RKGC": 70, "bonet-lok": 35, "sumB": 70, "corrected": 100,
              "corrected-half-step": 35}
 MAKERS = {"CRKSPH": 70, "MFM": 70, "MFM-adiabatic": 70, "riemann": 70, "delta-plus": 70,
           "transport-velocity-hydrostatic": 70, "transport-velocity": 35, "transport-velocity-whole": 25,
