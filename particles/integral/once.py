@@ -17,7 +17,7 @@ from particles.neighbours import u32, u64
 from particles.pairs import Face, Faces, pair_at, rate, sweep
 from particles.threads import Threads
 
-FEW = 16         # edges of a block that dissipate: if more do, dissipation is computed for the whole block
+FEW = 16        # edges of a block that dissipate: if more do, dissipation is computed for the whole block
 #: antisymmetric terms of transport: one end gains what the other loses
 ALIKE = Friction, Conduction, Mending
 Sent = np.dtype([(name, "f8") for name in ("m", "px", "py", "e")])
