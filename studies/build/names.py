@@ -10,7 +10,6 @@ from typing import Any, NamedTuple
 from continuum.published import published
 from continuum.scene import ROLL_ENERGY
 from particles.weights import WEIGHTS
-from studies.kit.figure import width
 from studies.kit.stats import Measured, with_errors
 
 START_ENERGY = ROLL_ENERGY
@@ -22,10 +21,6 @@ TRANSPORT_NAMES = {"ConstEta": "const-eta", "ConstNu": "const-nu"}
 VALUES = ("ke", "ke_err", "ke_field", "ke_field_err", "ke_mean", "ke_mean_err", "ke_fluctuation",
           "nu", "nu_err")
 ENERGY = r"kinetic energy per mass $K$  [$\varepsilon/m$]"
-#: least distance of two numbers above an axis  [inches]
-LABEL = 0.42
-#: Rayleigh numbers to label on an axis, the rounder ones first
-NAMED = (10000, 5000, 2500, 20000, 1500, 3500, 1e5, 2000, 7000, 50000)
 
 
 class Word(NamedTuple):
@@ -72,7 +67,7 @@ def explained(text: str = "") -> str:
     return "\n".join(lines) or f"no name and no sentence has {text!r}: leave it out to see all"
 
 
-# --- convection: columns, printed numbers, an axis ---------------------------------------------------
+# --- convection: columns, printed numbers -----------------------------------------------------------
 
 
 def one_energy(ke: float, err: float) -> dict[str, float]:
@@ -97,19 +92,3 @@ def as_printed(key: str) -> dict[str, Any]:
     """Accepted range of a printed number: its value, and the uncertainty of its last digit or wording."""
     value = published(f"khp95-{key}")
     return {"expect": value.value, "within": value.uncertainty}
-
-
-def ra_axis(axes: Any) -> None:
-    """Label an axis by Ra^-1/2 below and Ra above: the rounder ones first, others where there is room."""
-    low, high = axes.get_xlim()
-    scale = width(axes)/(high - low)
-    shown: list[float] = []
-    for ra in NAMED:
-        inches = [scale*abs(ra**-0.5 - other**-0.5) for other in shown]
-        if low < ra**-0.5 < high and all(gap > LABEL for gap in inches):
-            shown.append(ra)
-    top = axes.secondary_xaxis("top")
-    top.set_xticks([ra**-0.5 for ra in shown], labels=[f"{ra:g}" for ra in shown])
-    top.tick_params(labelsize=8)
-    top.set_xlabel("Rayleigh number Ra")
-    axes.set_xlabel(r"$\mathrm{Ra}^{-1/2}$")

@@ -2,8 +2,6 @@
 from collections.abc import Callable, Iterator
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
-from pathlib import Path
-from resource import getpagesize
 from time import perf_counter, process_time
 from typing import Any, ClassVar, NamedTuple
 
@@ -11,6 +9,7 @@ import numpy as np
 
 from continuum.scene import RayleighBenard
 from particles.run import Plan, run
+from studies.build.memory import resident
 from studies.kit.case import Case, Report
 from studies.kit.stats import Measured, with_errors
 from studies.kit.table import Row
@@ -126,19 +125,11 @@ class TwoThreads(StepTime, table="growth"):
         yield row(two, median(together), "wall")
 
 
-def resident(variant: Any, rows: int) -> Row:
-    """Resident bytes of this process in a step (Linux)."""
-    def now(*_: Any) -> int:
-        return getpagesize()*int(Path("/proc/self/statm").read_text().split()[1])
-    flock = Flock.of(variant, rows)
-    done = run(flock.method, flock.start, Plan(dt=flock.dt, steps=1, every=1, series={"resident": now}))
-    return {"points": flock.start.shape[1], "resident": round(done.series["resident"][-1])}
-
-
 class Resident(StepTime, table="memory"):
     """Memory of a fresh process that makes one step and nothing else."""
     what: ClassVar[str] = "memory"
 
     def measure(self, report: Report) -> Iterator[Row]:
+        scene = RayleighBenard(ra=1e4, L=float(self.rows))
         with ProcessPoolExecutor(1, get_context("spawn")) as fresh:
-            yield fresh.submit(resident, self.variant, self.rows).result()
+            yield fresh.submit(resident, self.variant, scene).result()

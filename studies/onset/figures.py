@@ -7,7 +7,8 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from studies.build.names import ENERGY, ra_axis
+from studies.build.axes import ra_axis
+from studies.build.names import ENERGY
 from studies.kit.figure import Drawing, Drawings, errorbar, look
 
 #: rows of the gas in KHP95's layer

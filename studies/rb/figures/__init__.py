@@ -4,7 +4,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from continuum.published import published
-from studies.build.names import ENERGY, name_of, ra_axis
+from studies.build.axes import ra_axis
+from studies.build.names import ENERGY, name_of
 from studies.kit.figure import Drawings, Overview
 from studies.kit.table import Tables
 from studies.rb import looks
