@@ -80,6 +80,7 @@ CLAIMS = (
                     "of 1e-6 in K at Ra 10 000"),
     Claim(id="own-speed-carried-memory", source="RR98 Sec. III", at_most=1, because=ASKED,
           value=one("memory", "resident/1e9", "points >= 1e6", err="0", method=CARRIED),
+          after="1.003 had been seen in a process that also loads py-pde and what draws figures",
           statement=f"a million {POINTS} need less than 1 GB: resident size of their process in a step [GB]"),
     Claim(id="own-speed-fixed-points", source="RR98 Sec. III", at_most=2,
           value=CHEAPEST/seconds(GRID, K), because="a factor of 2 was asked for before anything was measured",
