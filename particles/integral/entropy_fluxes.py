@@ -20,6 +20,7 @@ STEEP, STEEPEST = 6, 20.0       # exponent of the sensor; factor of the bend of 
 SLOW = 0.1                      # least speed of shear and entropy waves on an edge, over |w - v|
 CALM, ROUNDING = 1e-3, 1e-12    # thresholds of dissipation: part of a full jump, part of a field
 STILL = CALM**(1/STEEP)
+FAINT = 1e-7                    # least bend of pressure that dissipates, times w^4: at 1e-5 round-off grows
 LN2, MANTISSA, HALF = np.log(2), u64(52), u64((2*1023 + 1) << 51)     # mantissa's bits; exponent bias + 1/2
 
 
@@ -127,25 +128,27 @@ def calm(d, one, other, scale):
 def turning(a):
     """(rot v)^2 plus the excess of the strain (u_x - v_y)^2 + (u_y + v_x)^2 over (div v)^2, which is positive
     between vortices and zero in plane sound waves."""
-    strain = (a.u_x - a.v_y)**2 + (a.u_y + a.v_x)**2
-    return (a.v_x - a.u_y)**2 + max(0.0, strain - (a.u_x + a.v_y)**2)
+    shear2 = (a.u_y + a.v_x)**2
+    return shear2 - 4*a.u_y*a.v_x + max(0.0, shear2 - 4*a.u_x*a.v_y)
 
 
 @formula
-def unturned(a, b, ab):
-    """(div v)^2/((div v)^2 + `turning`) of two points; 1 where both are far below (CALM c/length)^2. Tells
-    shocks from the pressure field that holds a vortex together    [Ducros et al. 1999]"""
+def shrinking(a, b, ab):
+    """(div v)^2 of two points times the length of their edge squared, and the same plus `turning`; both at
+    least (CALM c)^2. Their ratio w is 1 in shocks and small in the pressure field that holds a vortex
+    together    [Ducros et al. 1999]"""
     along = ab.dx*ab.dx + ab.dy*ab.dy
     shrinks = CALM*CALM*a.c*b.c + along*((a.u_x + a.v_y)**2 + (b.u_x + b.v_y)**2)
-    return shrinks/(shrinks + along*(turning(a) + turning(b)))
+    return shrinks, shrinks + along*(turning(a) + turning(b))
 
 
 @formula
 def shock(a, b, ab, bend):
-    """Shares of what the limited mean leaves that dissipate: that of pressure, zero where its bend over 2 {P}
-    is below the threshold of `astir`, and that of velocity and entropy, which grows with the bend."""
-    wave, steep = unturned(a, b, ab), STEEPEST*bend
-    return wave*max(0.0, 1 - CALM/(steep + 1e-300)), min(1.0, wave*steep)
+    """Shares of what the limited mean leaves that dissipate: that of pressure, zero below the threshold of
+    `astir`, and that of velocity and entropy, which grows with the pressure's bend over 2 {P}."""
+    shrinks, both = shrinking(a, b, ab)
+    w, steep = shrinks/both, STEEPEST*bend
+    return w*max(0.0, 1 - FAINT/(w**4*steep + 1e-300)), min(1.0, w*steep)
 
 
 @formula
@@ -166,7 +169,8 @@ def astir(a, b, ab, P, r, by_x, by_y):
     """Whether an edge dissipates. Evaluates all conditions: a branch would prevent vector instructions."""
     sx, sy, (dP, P0, P1), (drho, r0, r1), (du, u0, u1), (dv, v0, v1) = ab.sx, ab.sy, P, r, by_x, by_y
     c2, both, speed = a.c*b.c, a.P + b.P, (abs(sx) + abs(sy))*(a.c + b.c)
-    return not ((STEEPEST*abs(P0 + P1 - 4*dP) <= CALM*both) & calm(dP, P0, P1, both)
+    shrinks, moves = shrinking(a, b, ab)
+    return not ((shrinks**4*(STEEPEST*abs(P0 + P1 - 4*dP)) <= FAINT*both*moves**4) & calm(dP, P0, P1, both)
                 & calm(c2*drho - dP, c2*r0 - P0, c2*r1 - P1, both)
                 & calm(sx*du + sy*dv, sx*u0 + sy*v0, sx*u1 + sy*v1, speed)
                 & calm(sx*dv - sy*du, sx*v0 - sy*u0, sx*v1 - sy*u1, speed))
