@@ -9,6 +9,7 @@ quiet machine.
 import time
 from collections.abc import Callable
 from dataclasses import replace
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,8 @@ import pandas as pd
 
 from bench.spam_speed import COLUMNS, time_row
 from continuum.scene import RayleighBenard
+from continuum.spectral.laws import GasLaws
+from continuum.spectral.newton import steady
 from particles.integral.carried import complete, follow, read, stage
 from particles.integral.layer import LayerSums
 from particles.integral.rings import geometry
@@ -34,7 +37,7 @@ SCENE = RayleighBenard(ra=1e4, L=100.0)
 #: nanoseconds per point and evaluation, by row of the table
 GOALS = {"spam": 185, "spam-sumB": 350}
 TUBE = ShockTube(half=50, eta=0.0, L=100.0)
-REPEATS, EVALUATIONS, STEPS, AHEAD = 21, 10, 12, 100
+REPEATS, EVALUATIONS, STEPS, AHEAD, FORMED = 21, 10, 12, 100, 1000
 LATTICE, DELAUNAY, MOVING = (f"{kind}-entropy-stable" for kind in ("fixed-lattice", "fixed-jittered-delaunay",
                                                                  "moving-delaunay"))
 
@@ -65,6 +68,21 @@ def entropy_stable(name: str, noise: float = 0.0) -> Callable[[], float]:
         state = method.state(rho, np.zeros((n, 2)), T)
     else:
         state = run(method, state, Plan(dt=dt, steps=AHEAD)).state
+    return called(n, method.start(n, Threads(1)).rates, state, np.empty_like(state))
+
+
+@cache
+def rolls() -> Any:
+    """The spectral method's steady flow."""
+    return steady(GasLaws(SCENE), 20)
+
+
+def in_rolls(name: str) -> Callable[[], float]:
+    """A measurement of one evaluation in steady rolls, FORMED steps after a start from the spectral method's."""
+    method, _, dt = ready(SCENE, name)
+    u, v, rho, T = rolls().fields(method.x/SCENE.L)
+    state = method.state(1 + rho, np.stack([u, v], axis=1), SCENE.T(method.x[:, 1]) + T)
+    state, n = run(method, state, Plan(dt=dt, steps=FORMED)).state, len(rho)
     return called(n, method.start(n, Threads(1)).rates, state, np.empty_like(state))
 
 
@@ -137,9 +155,11 @@ def main() -> None:
              "lattice, entropy-stable, in steps": marched(LATTICE),
              "Delaunay, entropy-stable, in steps": marched(DELAUNAY),
              "lattice, entropy-stable": fixed(LATTICE),
+             "lattice, entropy-stable, steady rolls": in_rolls(LATTICE),
              "lattice, entropy-stable, Sod's tube": entropy_stable(LATTICE),
              "lattice, entropy-stable, noise": entropy_stable(LATTICE, 0.3),
              "Delaunay, entropy-stable": fixed(DELAUNAY),
+             "Delaunay, entropy-stable, steady rolls": in_rolls(DELAUNAY),
              "Delaunay, entropy-stable, Sod's tube": entropy_stable(DELAUNAY),
              "Delaunay, entropy-stable, noise": entropy_stable(DELAUNAY, 0.3),
              "moving points, a step": closed("moving"),

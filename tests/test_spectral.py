@@ -11,7 +11,7 @@ from continuum.spectral import cavity
 from continuum.spectral.branch import begun, bordered, branch
 from continuum.spectral.cavity import Cavity, CavityLaws, observed, peak
 from continuum.spectral.laws import BoussinesqLaws, GasLaws
-from continuum.spectral.newton import Galerkin, steady
+from continuum.spectral.newton import Galerkin, SpectralState, steady
 
 OTHER = RayleighBenard(ra=5e3, eos=VanDerWaals(), transport=ConstNu)
 LAWS = {"gas": GasLaws(RayleighBenard(ra=5e3)), "other gas": GasLaws(OTHER),
@@ -27,6 +27,14 @@ def test_slopes_are_those_of_the_rates(equations):
     q, along = 0.01*random.normal(size=(2, equations.kept.sum()))
     change = (equations.rates(q - 1e-3*along) - equations.rates(q + 1e-3*along))/2e-3
     assert equations.slopes(q)@along == pytest.approx(change, abs=1e-9)
+
+
+def test_fields_anywhere_are_those_at_the_points_and_mirrored_in_the_rising_stream():
+    equations = Galerkin(LAWS["gas"], 5)
+    state = SpectralState(equations, np.random.default_rng(1).normal(size=equations.kept.sum()), ())
+    x, y = (each.ravel() for each in np.meshgrid(equations.x.points, equations.y.points, indexing="ij"))
+    at, (u, *even) = state.at[:, 0].reshape(4, -1), state.fields(np.stack([-x - equations.laws.width, y], 1))
+    assert np.allclose([-u, *even], at, rtol=0, atol=1e-12)
 
 
 @pytest.mark.parametrize("make, words", [

@@ -23,22 +23,31 @@ class Along(NamedTuple):
     functions: np.ndarray
 
 
+def waves(x: np.ndarray, n: int, width: float) -> np.ndarray:
+    """Values and slopes of each field's n waves at x (points,), (2, 4, points, n). x = 0 : where fluid rises."""
+    k = 2*np.pi*np.arange(n)/width
+    sin, cos = np.sin(np.outer(x, k)), np.cos(np.outer(x, k))
+    return np.array([[sin, cos, cos, cos], [k*cos, -k*sin, -k*sin, -k*sin]])
+
+
+def polynomials(y: np.ndarray, n: int) -> np.ndarray:
+    """Values and slopes of each field's n polynomials at y (points,) of -1/2 to 1/2, (2, 4, points, n)."""
+    slopes = legendre.legval(2*y, 2*legendre.legder(np.eye(n + 2))).T
+    every = np.array([legendre.legvander(2*y, n + 1), slopes])
+    free, fixed = every[..., :-2], every[..., :-2] - every[..., 2:]
+    return np.stack([fixed, fixed, free, fixed], axis=1)
+
+
 @lru_cache(maxsize=8)
 def along_x(n: int, width: float) -> Along:
     """Waves on 0 < x < width/2; lengths are in heights of the layer."""
     count = int(POINTS*n) + 1
     x = (np.arange(count) + 0.5)/count*width/2
-    k = 2*np.pi*np.arange(n)/width
-    sin, cos = np.sin(np.outer(x, k)), np.cos(np.outer(x, k))
-    values, slopes = [sin, cos, cos, cos], [k*cos, -k*sin, -k*sin, -k*sin]
-    return Along(x, np.full(count, width/2/count), np.array([values, slopes]))
+    return Along(x, np.full(count, width/2/count), waves(x, n, width))
 
 
 @lru_cache(maxsize=8)
 def along_y(n: int) -> Along:
     """Polynomials on -1/2 < y < 1/2."""
     z, weights = legendre.leggauss(int(POINTS*n) + 3)
-    slopes = legendre.legval(z, 2*legendre.legder(np.eye(n + 2))).T
-    every = np.array([legendre.legvander(z, n + 1), slopes])
-    free, fixed = every[..., :-2], every[..., :-2] - every[..., 2:]
-    return Along(z/2, weights/2, np.stack([fixed, fixed, free, fixed], axis=1))
+    return Along(z/2, weights/2, polynomials(z/2, n))

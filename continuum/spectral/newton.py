@@ -12,7 +12,7 @@ import numpy as np
 from scipy.linalg import solve
 from scipy.optimize import brentq
 
-from continuum.spectral.modes import RHO, VX, VY, T, along_x, along_y
+from continuum.spectral.modes import RHO, VX, VY, T, along_x, along_y, polynomials, waves
 from continuum.steady import largest, newton
 
 TINY = 1e-30        # complex step: no difference is taken, so that it has no round-off
@@ -93,6 +93,14 @@ class SpectralState(NamedTuple):
     def at(self) -> np.ndarray:
         """Fields and their slopes at the points, (4, 3, points in x, in y)."""
         return self.equations.at(self.q)
+
+    def fields(self, x: np.ndarray) -> np.ndarray:
+        """Fields (4, points) of a layer, of which `laws` tells, at places (points, 2) in its heights: fluid rises
+        at x = 0, y is 0 in the middle. A cavity has no waves, to which this does not apply."""
+        n, width = self.equations.n, self.equations.laws.width
+        X, Y = waves(x[:, 0], n, width)[0], polynomials(x[:, 1], n)[0]
+        values: np.ndarray = ((X@self.equations.amplitudes(self.q))*Y).sum(axis=2)
+        return values
 
     def on(self, n: int) -> np.ndarray:
         """Amplitudes (4, n, n) for more functions or fewer."""
