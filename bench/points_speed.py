@@ -78,7 +78,7 @@ def rolls() -> Any:
 
 
 def in_rolls(name: str) -> Callable[[], float]:
-    """A measurement of one evaluation in steady rolls, FORMED steps after a start from the spectral method's."""
+    """A measurement of one evaluation in steady rolls: FORMED steps after those of the spectral method."""
     method, _, dt = ready(SCENE, name)
     u, v, rho, T = rolls().fields(method.x/SCENE.L)
     state = method.state(1 + rho, np.stack([u, v], axis=1), SCENE.T(method.x[:, 1]) + T)

@@ -24,7 +24,7 @@ class Along(NamedTuple):
 
 
 def waves(x: np.ndarray, n: int, width: float) -> np.ndarray:
-    """Values and slopes of each field's n waves at x (points,), (2, 4, points, n). x = 0 : where fluid rises."""
+    """Values and slopes of each field's n waves at x (points,), (2, 4, points, n). Fluid rises at x = 0."""
     k = 2*np.pi*np.arange(n)/width
     sin, cos = np.sin(np.outer(x, k)), np.cos(np.outer(x, k))
     return np.array([[sin, cos, cos, cos], [k*cos, -k*sin, -k*sin, -k*sin]])

@@ -20,7 +20,7 @@ STEEP, STEEPEST = 6, 20.0       # exponent of the sensor; factor of the bend of 
 SLOW = 0.1                      # least speed of shear and entropy waves on an edge, over |w - v|
 CALM, ROUNDING = 1e-3, 1e-12    # thresholds of dissipation: part of a full jump, part of a field
 STILL = CALM**(1/STEEP)
-FAINT = 1e-7                    # least bend of pressure that dissipates, times w^4: at 1e-5 round-off grows
+FAINT = CALM**1.5               # s at which the share s^2/(s^2 + CALM^2) of `shock` is CALM
 LN2, MANTISSA, HALF = np.log(2), u64(52), u64((2*1023 + 1) << 51)     # mantissa's bits; exponent bias + 1/2
 
 
@@ -144,11 +144,12 @@ def shrinking(a, b, ab):
 
 @formula
 def shock(a, b, ab, bend):
-    """Shares of what the limited mean leaves that dissipate: that of pressure, zero below the threshold of
-    `astir`, and that of velocity and entropy, which grows with the pressure's bend over 2 {P}."""
-    shrinks, both = shrinking(a, b, ab)
-    w, steep = shrinks/both, STEEPEST*bend
-    return w*max(0.0, 1 - FAINT/(w**4*steep + 1e-300)), min(1.0, w*steep)
+    """Shares of what the limited mean leaves that dissipate, from the bend of the pressure over 2 {P}: that of
+    pressure, w s^2/(s^2 + CALM^2) with s = w^4 STEEPEST bend, and that of velocity and entropy."""
+    shrinks, moves = shrinking(a, b, ab)
+    w, steep = shrinks/moves, STEEPEST*bend
+    s2 = (w**4*steep)**2
+    return w*s2/(s2 + CALM*CALM), min(1.0, w*steep)
 
 
 @formula
