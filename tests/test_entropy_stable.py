@@ -161,7 +161,7 @@ def half_violent(method):
 
 
 def in_part(sums):
-    """Whether no edge, some, all dissipate in some blocks, and those that wait do not fill blocks at the end."""
+    """Whether no edge, some, all dissipate in some blocks, and those that wait at the end fill no block."""
     sending, full = sums.sending, int(BLOCK)
     number = sending.stirred.reshape(-1, full).sum(axis=1)[:sending.blocks]
     return {0, full} < set(number) and number.sum() % full > 0

@@ -95,8 +95,8 @@ class SpectralState(NamedTuple):
         return self.equations.at(self.q)
 
     def fields(self, x: np.ndarray) -> np.ndarray:
-        """Fields of `laws` (4, points) of a layer, at places (points, 2) in its heights: fluid rises at x = 0,
-        y is 0 in the middle. Not of a cavity, which has no waves."""
+        """Fields of `laws` (4, points) of a layer, at places (points, 2) in its heights: fluid rises at x = 0
+        and y is 0 in the middle. Not of a cavity, which has no waves."""
         n, width = self.equations.n, self.equations.laws.width
         X, Y = waves(x[:, 0], n, width)[0], polynomials(x[:, 1], n)[0]
         values: np.ndarray = ((X@self.equations.amplitudes(self.q))*Y).sum(axis=2)

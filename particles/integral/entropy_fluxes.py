@@ -144,8 +144,8 @@ def shrinking(a, b, ab):
 
 @formula
 def shock(a, b, ab, bend):
-    """Shares of what the limited mean leaves that dissipate, from the bend of the pressure over 2 {P}: that of
-    pressure, w s^2/(s^2 + CALM^2) with s = w^4 STEEPEST bend, and that of velocity and entropy."""
+    """Shares of what the limited mean leaves that dissipate: that of pressure, w s^2/(s^2 + CALM^2) with
+    s = w^4 STEEPEST bend, and that of velocity and entropy. bend : of the pressure, over 2 {P}."""
     shrinks, moves = shrinking(a, b, ab)
     w, steep = shrinks/moves, STEEPEST*bend
     s2 = (w**4*steep)**2
