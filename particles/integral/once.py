@@ -2,7 +2,7 @@
 
 For terms without a branch, so that the loop over edges becomes vector instructions. Dissipation has a branch:
 it is added afterwards, on blocks of those edges that `astir` finds. Results do not depend on the number of
-threads: any block is computed alike, and points add up the exchange of their edges in the order of their rows.
+threads: blocks are computed alike, and points add up the exchange of their edges in the order of their rows.
 """
 from typing import NamedTuple
 
