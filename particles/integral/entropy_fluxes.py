@@ -20,7 +20,7 @@ STEEP, STEEPEST = 6, 20.0       # exponent of the sensor; factor of the bend of 
 SLOW = 0.1                      # least speed of shear and entropy waves on an edge, over |w - v|
 CALM, ROUNDING = 1e-3, 1e-12    # thresholds of dissipation: part of a full jump, part of a field
 STILL = CALM**(1/STEEP)
-FAINT = CALM**1.5               # s at which the share s^2/(s^2 + CALM^2) of `shock` is CALM
+FAINT = CALM**1.5               # s at which the share of pressure in `shock` is CALM
 LN2, MANTISSA, HALF = np.log(2), u64(52), u64((2*1023 + 1) << 51)     # mantissa's bits; exponent bias + 1/2
 
 
@@ -128,28 +128,26 @@ def calm(d, one, other, scale):
 def turning(a):
     """(rot v)^2 plus the excess of the strain (u_x - v_y)^2 + (u_y + v_x)^2 over (div v)^2, which is positive
     between vortices and zero in plane sound waves."""
-    shear2 = (a.u_y + a.v_x)**2
-    return shear2 - 4*a.u_y*a.v_x + max(0.0, shear2 - 4*a.u_x*a.v_y)
+    strain = (a.u_x - a.v_y)**2 + (a.u_y + a.v_x)**2
+    return (a.v_x - a.u_y)**2 + max(0.0, strain - (a.u_x + a.v_y)**2)
 
 
 @formula
-def shrinking(a, b, ab):
-    """(div v)^2 of two points times the length of their edge squared, and the same plus `turning`; both at
-    least (CALM c)^2. Their ratio w is 1 in shocks and small in the pressure field that holds a vortex
-    together    [Ducros et al. 1999]"""
+def unturned(a, b, ab):
+    """(div v)^2/((div v)^2 + `turning`) of two points; 1 where both are far below (CALM c/length)^2. Tells
+    shocks from the pressure field that holds a vortex together    [Ducros et al. 1999]"""
     along = ab.dx*ab.dx + ab.dy*ab.dy
     shrinks = CALM*CALM*a.c*b.c + along*((a.u_x + a.v_y)**2 + (b.u_x + b.v_y)**2)
-    return shrinks, shrinks + along*(turning(a) + turning(b))
+    return shrinks/(shrinks + along*(turning(a) + turning(b)))
 
 
 @formula
 def shock(a, b, ab, bend):
-    """Shares of what the limited mean leaves that dissipate: that of pressure, w s^2/(s^2 + CALM^2) with
-    s = w^4 STEEPEST bend, and that of velocity and entropy. bend : of the pressure, over 2 {P}."""
-    shrinks, moves = shrinking(a, b, ab)
-    w, steep = shrinks/moves, STEEPEST*bend
-    s2 = (w**4*steep)**2
-    return w*s2/(s2 + CALM*CALM), min(1.0, w*steep)
+    """Shares of what the limited mean leaves that dissipate: that of pressure, w s^2/(s^2 + CALM^2), where
+    s = STEEPEST bend, w = `unturned`, and that of velocity and entropy. bend : of pressure, over 2 {P}."""
+    wave, steep = unturned(a, b, ab), STEEPEST*bend
+    s2 = steep*steep
+    return wave*s2/(s2 + CALM*CALM), min(1.0, wave*steep)
 
 
 @formula
@@ -170,8 +168,7 @@ def astir(a, b, ab, P, r, by_x, by_y):
     """Whether an edge dissipates. Evaluates all conditions: a branch would prevent vector instructions."""
     sx, sy, (dP, P0, P1), (drho, r0, r1), (du, u0, u1), (dv, v0, v1) = ab.sx, ab.sy, P, r, by_x, by_y
     c2, both, speed = a.c*b.c, a.P + b.P, (abs(sx) + abs(sy))*(a.c + b.c)
-    shrinks, moves = shrinking(a, b, ab)
-    return not ((shrinks**4*(STEEPEST*abs(P0 + P1 - 4*dP)) <= FAINT*both*moves**4) & calm(dP, P0, P1, both)
+    return not ((STEEPEST*abs(P0 + P1 - 4*dP) <= FAINT*both) & calm(dP, P0, P1, both)
                 & calm(c2*drho - dP, c2*r0 - P0, c2*r1 - P1, both)
                 & calm(sx*du + sy*dv, sx*u0 + sy*v0, sx*u1 + sy*v1, speed)
                 & calm(sx*dv - sy*du, sx*v0 - sy*u0, sx*v1 - sy*u1, speed))

@@ -1,8 +1,8 @@
 """Exchange over edges, each evaluated once, many at a time: what one end gains the other loses.
 
 For terms without a branch, so that the loop over edges becomes vector instructions. Dissipation has a branch:
-it is added afterwards, on blocks of those edges that `astir` finds. Results do not depend on the number of
-threads: blocks are computed alike, and points add up the exchange of their edges in the order of their rows.
+it is added afterwards, on the few edges that `astir` finds. Results do not depend on the number of threads,
+as blocks of edges do not, and points add up the exchange of their edges in the order of their rows.
 """
 from typing import NamedTuple
 
@@ -17,7 +17,7 @@ from particles.neighbours import u32, u64
 from particles.pairs import Face, Faces, pair_at, rate, sweep
 from particles.threads import Threads
 
-MOST = 40       # edges of a block that dissipate: if more do, dissipation is computed for the whole block
+FEW = 16        # edges of a block that dissipate: if more do, dissipation is computed for the whole block
 #: antisymmetric terms of transport: one end gains what the other loses
 ALIKE = Friction, Conduction, Mending
 Sent = np.dtype([(name, "f8") for name in ("m", "px", "py", "e")])
@@ -40,6 +40,14 @@ class Once(NamedTuple):
 
 
 pair_at.of(Once)(lambda once, h: Face(once.sx[h], once.sy[h], once.k[h], once.dx[h], once.dy[h]))
+
+
+@formula
+def count(edges, stirred):
+    number = 0
+    for h in edges:
+        number += stirred[h]
+    return number
 
 
 def empty_once(entries: int) -> Once:
@@ -96,71 +104,40 @@ def _carry(first, last, terms, own, points, a, b, once, stirred, sent):
 
 
 @jit_apart
-def _stir(begin, term, points, a, b, once, gains):
-    """Dissipation on a block of edges. a, b : lanes of both ends."""
-    for h in range(BLOCK):
-        ab, i, j = pair_at(once, begin + h), once.i[begin + h], once.near[begin + h]
-        one, other = end_at(a, h, points[i]), end_at(b, h, points[j])
+def _stir_all(first, last, term, points, a, b, once, stirred, sent):
+    """Add the dissipation of marked edges, computed for all: a branch would end vector instructions."""
+    for h in range(first, last):
+        ab, q, here = pair_at(once, h), sent[h], 1.0*stirred[h]
+        one, other = end_at(a, h - first, points[once.i[h]]), end_at(b, h - first, points[once.near[h]])
         m, px, py, e = waves(term.eos, one, other, ab, *jumps(one, other, ab))
-        gains[0, h], gains[1, h], gains[2, h], gains[3, h] = m, px, py, e
-
-
-@formula
-def gain(q, gains, h):
-    q.m, q.px, q.py, q.e = q.m + gains[0, h], q.px + gains[1, h], q.py + gains[2, h], q.e + gains[3, h]
+        q.m, q.px, q.py, q.e = q.m + here*m, q.px + here*px, q.py + here*py, q.e + here*e
 
 
 @jit
-def _block():
-    """A block of edges, all from point 0 to itself."""
-    i, of = np.zeros((2, BLOCK), u32), np.zeros((5, BLOCK))
-    return Once(i[0], i[1], of[0], of[1], of[2], of[3], of[4], i[0], of[0])
-
-
-@jit
-def _gather(edges, once, some):
-    """Copy these edges to the first ones of `some`."""
-    for h in range(len(edges)):
-        k = edges[h]
-        some.i[h], some.near[h] = once.i[k], once.near[k]
-        some.sx[h], some.sy[h], some.dx[h], some.dy[h] = once.sx[k], once.sy[k], once.dx[k], once.dy[k]
+def _stir_few(first, last, term, points, once, stirred, sent):
+    """Add the dissipation of marked edges, one by one."""
+    for h in range(first, last):
+        if stirred[h]:
+            q = sent[h]
+            m, px, py, e = rate(term, points[once.i[h]], points[once.near[h]], pair_at(once, h))
+            q.m, q.px, q.py, q.e = q.m + m, q.px + px, q.py + py, q.e + e
 
 
 @jit
 def _send(first, last, terms, rough, own, points, lines, once, stirred, sent):
-    """Exchange over blocks of edges. rough : `Dissipation`, or None; lines : points as rows of numbers.
-
-    Edges that dissipate wait until they fill a block, since a branch would end vector instructions; where
-    most of a block do, dissipation is computed for all of it.
-    """
-    a, b, gains = np.empty((COLUMNS, BLOCK)), np.empty((COLUMNS, BLOCK)), np.empty((4, BLOCK))
-    waiting, number, some = np.empty(2*BLOCK, u32), u64(0), _block()
+    """Exchange over blocks of edges. rough : `Dissipation`, or None; lines : points as rows of numbers."""
+    a, b = np.empty((COLUMNS, BLOCK)), np.empty((COLUMNS, BLOCK))
     for block in range(u64(first), u64(last)):
         begin, end = block*BLOCK, (block + u64(1))*BLOCK
         read_lanes(lines, once.i, begin, a)
         read_lanes(lines, once.near, begin, b)
         _carry(begin, end, terms, own, points, a, b, once, stirred, sent)
-        if rough is None:
-            continue
-        before = number
-        for h in range(begin, end):
-            waiting[number] = h
-            number += u64(stirred[h])
-        if number - before > MOST:
-            _stir(begin, rough, points, a, b, once, gains)
-            for k in range(before, number):
-                gain(sent[waiting[k]], gains, waiting[k] - begin)
-            number = before
-        while number >= BLOCK or (number > 0 and end == last*BLOCK):
-            full = min(number, BLOCK)
-            _gather(waiting[:full], once, some)
-            read_lanes(lines, some.i, u64(0), a)
-            read_lanes(lines, some.near, u64(0), b)
-            _stir(u64(0), rough, points, a, b, some, gains)
-            for h in range(full):
-                gain(sent[waiting[h]], gains, h)
-            number -= full
-            waiting[:number] = waiting[full:full + number]
+        if rough is not None:
+            many = count(range(begin, end), stirred)
+            if many > FEW:
+                _stir_all(begin, end, rough, points, a, b, once, stirred, sent)
+            elif many > 0:
+                _stir_few(begin, end, rough, points, once, stirred, sent)
 
 
 @jit_records
