@@ -28,18 +28,15 @@ def almost(value: float, err: float = 0.0):
 
 
 @pytest.mark.parametrize(("value", "answer"), [
-    (one("rows", "y", n=8), (64, 0.2)),
-    (one("rows", "exact", "y > 60"), (64, 0)),
+    (one("rows", "y", n=8), (64, 0.2)), (one("rows", "exact", "y > 60"), (64, 0)),
     (one("rows", "2*y", n=2, err="2*y_err"), (8, 0.6)),
-    (ask.first("rows", "y", by="n"), (1, 0.1)),
-    (ask.last("rows", "y", by="-n"), (1, 0.1)),
+    (ask.first("rows", "y", by="n"), (1, 0.1)), (ask.last("rows", "y", by="-n"), (1, 0.1)),
     (ask.last("rows", "y", by="y", name="a"), (4, 0.3)),
     (ask.largest("rows", "y"), (64, 0.4)),
     (ask.largest("rows", "abs(y/exact - 1)", err="y_err/exact", n=(1, 2)), (0.5, 0.075)),
     (ask.least("rows", "y", "1 < n < 8"), (4, 0.4)),
     (ask.farthest("rows", "y", centre=10.0, name=("a", "b"), such="n < 8"), (1, 0.1)),
-    (ask.total("rows", "y", name="a"), (5, math.hypot(0.3, 0.1))),
-    (ask.total("rows", "exact > 3"), (3, 0)),
+    (ask.total("rows", "y", name="a"), (5, math.hypot(0.3, 0.1))), (ask.total("rows", "exact > 3"), (3, 0)),
     (ask.share("rows", "exact > 3"), (0.75, 0)),
     (ask.over_seeds("rows", "exact", name="a"), (3, stdtrit(1, 0.975)*math.sqrt(2)/math.sqrt(2))),
     (ask.over_seeds("rows", "y", n=(4,)), (16, 0.4)),
@@ -119,8 +116,7 @@ def toy(value):
 @pytest.mark.parametrize(("value", "words"), [
     (one("rows", "exac", n=2), "table rows has no column exac: it has name, n, y"),
     (one("rows", "exact", m=2), "table rows has no column m: it has name, n, y"),
-    (one("rows", "exact", "kind == 'a'"), "no column kind"),
-    (one("rows", "y + (", n=2), "is no formula"),
+    (one("rows", "exact", "kind == 'a'"), "no column kind"), (one("rows", "y + (", n=2), "is no formula"),
     (one("rows", "where(exact)", n=2), "cannot be computed"),
     (one("rows", "y/exact", n=2), "y_err: say what the error is, as in err='y_err/exact', or err='0'"),
     (one("rows", "exact", name="a"), "2 such rows"),

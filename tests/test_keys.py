@@ -160,8 +160,7 @@ def hashed(tree, places=(RUN,)):
 
 
 @pytest.mark.parametrize("name, old, new", [
-    ("continuum/laws.py", "SIZE = 3", "SIZE = 4"),
-    ("continuum/laws.py", "x + SIZE)", "x - SIZE)"),
+    ("continuum/laws.py", "SIZE = 3", "SIZE = 4"), ("continuum/laws.py", "x + SIZE)", "x - SIZE)"),
     ("continuum/laws.py", "class A:\n    pass", "class A:\n    y = 1"),
     ("continuum/laws.py", "'a': A", "'a': B"),
     ("studies/one.py", "), SIZE", "), 1"),

@@ -19,7 +19,7 @@ from studies.kit.table import Tables, read
 from studies.rb import tables
 from studies.rb.claims import RB_CLAIMS
 from studies.rb.claims.freezing import rattling
-from studies.rb.derive import ENERGIES, extrapolated, step_change, step_changes
+from studies.rb.derive import ENERGIES, extrapolated, step_change, step_changes, with_smoothing
 from studies.rb.runs import few_particles as few
 from studies.rb.runs.arithmetic import SUBJECTS, WithoutFlow
 from studies.rb.runs.points import DihRun, MovingRun
@@ -71,6 +71,8 @@ def test_what_is_tried_out_stands_beside_its_kin_with_the_nearest_rows():
     assert any(line.startswith(" 50 rows") and "spam-wendland-c2" in line for line in kin), "25 is its own"
     assert any(line.startswith("   limit") and "grid" in line for line in kin)
     assert "diverged" in list(study.beside([case], {}, known))[1]
+    known["smoothed"] = known["smoothed"].astype({"weight": object})     # as of runs, not of files
+    assert with_smoothing(known["means"].query("method == 'grid'"), known).empty
 
 
 def test_a_run_that_diverges_is_a_row_without_energies(tmp_path):

@@ -190,7 +190,7 @@ def with_smoothing(rows: pd.DataFrame, tables: Tables) -> pd.DataFrame:
     seen = seen.assign(left=seen.ke_smoothed/seen.ke, resolution=seen.rows, h=seen.h.round(6))
     views = list(map(variant_of, spam.variant, spam.resolution))
     spam = spam.assign(weight=[view.weight.__name__ for view in views],
-                       h=[round(view.h, 6) for view in views])
+                       h=[round(view.h, 6) for view in views]).astype({"weight": str, "h": float})
     key = [*SCENE, "weight", "h", "resolution"]
     return spam.merge(seen.drop_duplicates(key, keep="last")[[*key, "left"]], on=key)
 
