@@ -7,6 +7,7 @@ from functools import partial
 from typing import ClassVar
 
 import h5py
+import numba
 import numpy as np
 import pytest
 
@@ -50,11 +51,19 @@ def half_done(tmp_path, **other):
 
 @pytest.mark.parametrize("seconds", [1e9, 0.0])
 def test_interrupted_run_goes_on_bitwise(tmp_path, uninterrupted, seconds):
-    """Also with a checkpoint at each record."""
     done = run(*half_done(tmp_path, checkpoint_seconds=seconds))
     assert np.array_equal(done.state, uninterrupted.state) and np.array_equal(done.ids, uninterrupted.ids)
     assert done.series == uninterrupted.series
     assert all(np.array_equal(done.means[name], uninterrupted.means[name]) for name in done.means)
+
+
+def test_what_is_compiled_in_a_run_is_not_in_its_seconds(uninterrupted):
+    def step(*arguments):
+        RK4.step(*arguments), numba.njit(lambda x: x + 1)(1)
+    method, start = small()
+    compiles = replace(method, integrator=type("Compiles", (RK4,), {"step": step}))
+    done = run(compiles, start, Plan(dt=0.6, steps=5))
+    assert done.cpu_s < done.compile_s
 
 
 class Pressed(RK4):
@@ -240,12 +249,11 @@ def test_periodic_sides_have_no_beyond():
 
 @pytest.mark.parametrize(("change", "message"), [
     ({"dt": 0.0}, "dt > 0"), ({"dt": np.inf}, "dt > 0 and finite"), ({"steps": -1}, "steps >= 0"),
-    ({"every": 0}, "every >= 1"), ({"steps": np.nan}, "steps >= 0"),
+    ({"every": 0}, "every >= 1"), ({"steps": np.nan}, "steps >= 0"), ({"steps": 0}, "without a record"),
     ({"steps": 10.5}, r"whole numbers, .*steps = 10\.5.*take steps = round"),
     ({"every": 2.5}, r"whole numbers, .*every = 2\.5"), ({"dt": "0.5"}, r"are numbers, got dt = '0\.5'"),
     ({"steps": 4},
      r"4 steps, recorded every 5, leave kp, a/b, \., grid,  without a record: take at least 5"),
-    ({"steps": 0}, "without a record"),
     ({"mean_from": 36.0}, r"means from time 36 on have no sample: the last record is at 36; take more steps"),
 ])
 def test_plan_refuses_what_cannot_be_done(change, message):
