@@ -31,8 +31,7 @@ def almost(value: float, err: float = 0.0):
     (one("rows", "y", n=8), (64, 0.2)), (one("rows", "exact", "y > 60"), (64, 0)),
     (one("rows", "2*y", n=2, err="2*y_err"), (8, 0.6)),
     (ask.first("rows", "y", by="n"), (1, 0.1)), (ask.last("rows", "y", by="-n"), (1, 0.1)),
-    (ask.last("rows", "y", by="y", name="a"), (4, 0.3)),
-    (ask.largest("rows", "y"), (64, 0.4)),
+    (ask.last("rows", "y", by="y", name="a"), (4, 0.3)), (ask.largest("rows", "y"), (64, 0.4)),
     (ask.largest("rows", "abs(y/exact - 1)", err="y_err/exact", n=(1, 2)), (0.5, 0.075)),
     (ask.least("rows", "y", "1 < n < 8"), (4, 0.4)),
     (ask.farthest("rows", "y", centre=10.0, name=("a", "b"), such="n < 8"), (1, 0.1)),
@@ -40,8 +39,7 @@ def almost(value: float, err: float = 0.0):
     (ask.share("rows", "exact > 3"), (0.75, 0)),
     (ask.over_seeds("rows", "exact", name="a"), (3, stdtrit(1, 0.975)*math.sqrt(2)/math.sqrt(2))),
     (ask.over_seeds("rows", "y", n=(4,)), (16, 0.4)),
-    (ask.spread("rows", "y", name="a"), (4, math.hypot(0.3, 4*0.1))),
-    (ask.power("rows", "y", "n"), (2, 0)),
+    (ask.spread("rows", "y", name="a"), (4, math.hypot(0.3, 4*0.1))), (ask.power("rows", "y", "n"), (2, 0)),
     (ask.largest("rows", "cos(pi*n) + sqrt(n)*0 + log10(exp(0)*10) + abs(-1)"), (3, 0)),
 ])
 def test_a_question_has_its_number_and_its_error(value, answer):

@@ -163,8 +163,7 @@ def hashed(tree, places=(RUN,)):
     ("continuum/laws.py", "SIZE = 3", "SIZE = 4"), ("continuum/laws.py", "x + SIZE)", "x - SIZE)"),
     ("continuum/laws.py", "class A:\n    pass", "class A:\n    y = 1"),
     ("continuum/laws.py", "'a': A", "'a': B"),
-    ("studies/one.py", "), SIZE", "), 1"),
-    ("continuum/jit.py", "return stub", "return None"),
+    ("studies/one.py", "), SIZE", "), 1"), ("continuum/jit.py", "return stub", "return None"),
 ])
 def test_what_a_run_reads_changes_its_key(tree, name, old, new):
     before = hashed(tree)
@@ -173,8 +172,7 @@ def test_what_a_run_reads_changes_its_key(tree, name, old, new):
 
 
 @pytest.mark.parametrize("name, old, new", [
-    ("continuum/laws.py", "OTHER = 4", "OTHER = 5"),
-    ("continuum/laws.py", "'Doc.'", "'Other words.'"),
+    ("continuum/laws.py", "OTHER = 4", "OTHER = 5"), ("continuum/laws.py", "'Doc.'", "'Other words.'"),
     ("continuum/laws.py", "class B:\n    pass", "class B:\n    y = 1"),
     ("continuum/laws.py", "'b': B}", "'b': B, 'c': B}\nTABLE['d'] = B\nlaw.of(B)(lambda kind, x: x)"),
     ("studies/one.py", "# why", "# why not"),

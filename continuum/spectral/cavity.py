@@ -12,7 +12,7 @@ import numpy as np
 from numpy.polynomial import legendre
 
 from continuum.spectral.laws import BoussinesqLaws
-from continuum.spectral.modes import RHO, VX, VY, T, along_y
+from continuum.spectral.modes import RHO, VX, VY, T, along_y, polynomials
 from continuum.spectral.newton import Galerkin, SpectralState, relaxed
 
 
@@ -37,6 +37,10 @@ class Cavity(Galerkin):
         odd = np.add.outer(np.arange(n), np.arange(n)) % 2 == 1
         self.kept = np.array([odd, odd, ~odd, odd])     # u, v and T change sign under half a turn
         self.kept[RHO, 0, 0] = False        # the mean is fixed
+
+    def anywhere(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        along_x, upright = (polynomials(each, self.n)[0] for each in x.T)
+        return along_x, upright[[VX, VY, RHO, RHO]]
 
     def terms(self, at: np.ndarray) -> np.ndarray:
         return self.laws.terms(at, self.x.points[:, None])  # type: ignore[no-any-return]

@@ -46,6 +46,10 @@ class Galerkin:
         (X, X1), (Y, Y1) = self.x.functions[:, f], self.y.functions[:, f]
         return [(X, Y), (X1, Y), (X, Y1)]
 
+    def anywhere(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Values at places (points, 2) of the functions along either axis, (4, points, n) each."""
+        return waves(x[:, 0], self.n, self.laws.width)[0], polynomials(x[:, 1], self.n)[0]
+
     def at(self, q: np.ndarray) -> np.ndarray:
         """Fields and their slopes at the points, (4, 3, points in x, in y)."""
         return np.array([[X@a@Y.T for X, Y in self.kinds(f)] for f, a in enumerate(self.amplitudes(q))])
@@ -95,10 +99,9 @@ class SpectralState(NamedTuple):
         return self.equations.at(self.q)
 
     def fields(self, x: np.ndarray) -> np.ndarray:
-        """Fields of `laws` (4, points) of a layer, at places (points, 2) in its heights: fluid rises at x = 0
-        and y is 0 in the middle. Not of a cavity, which has no waves."""
-        n, width = self.equations.n, self.equations.laws.width
-        X, Y = waves(x[:, 0], n, width)[0], polynomials(x[:, 1], n)[0]
+        """Fields of `laws` (4, points) at places (points, 2) in heights, from the middle; in a layer fluid
+        rises at x = 0."""
+        X, Y = self.equations.anywhere(x)
         values: np.ndarray = ((X@self.equations.amplitudes(self.q))*Y).sum(axis=2)
         return values
 
@@ -116,7 +119,7 @@ class SpectralState(NamedTuple):
 
     @property
     def Nu(self) -> float:
-        """Nusselt number: upward heat flux, averaged over the volume, over that of conduction alone."""
+        """Nusselt number of a layer: upward heat flux, averaged over the volume, over that by conduction."""
         up = self.equations.terms(self.at)[T, 2]
         return float(np.average(up, weights=self.equations.weights)/self.equations.laws.units[2])
 

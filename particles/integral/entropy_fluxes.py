@@ -16,7 +16,7 @@ from particles.integral.exchange import pressure_of
 from particles.neighbours import u64
 from particles.pairs import pair_term
 
-STEEP, STEEPEST = 6, 20.0       # exponent of the sensor; factor of the bend of the pressure over its mean
+STEEP, STEEPEST = 6, 20.0       # exponent of the sensor; factor of the pressure's bend over 2 {P}
 SLOW = 0.1                      # least speed of shear and entropy waves on an edge, over |w - v|
 CALM, ROUNDING = 1e-3, 1e-12    # thresholds of dissipation: part of a full jump, part of a field
 STILL = CALM**(1/STEEP)

@@ -6,15 +6,26 @@ from typing import Any, ClassVar
 import numpy as np
 
 import particles.integral.van_der_waals  # noqa: F401  (registers its formulas)
-from continuum.fluid import IdealGas, energy, sound_speed
+from continuum.fluid import IdealGas, check_state, energy, sound_speed
 from continuum.jit import check_formulas, jit
 from particles.integral.edges import NONE_BEYOND, NOWHERE, selected
-from particles.integral.entropy_fluxes import BlendedPressure, Dissipation, Logarithmic, log_means
+from particles.integral.entropy_fluxes import BlendedPressure, Dissipation, Logarithmic, acoustics, log_means
 from particles.integral.exchange import Pressure, pressure_of
-from particles.integral.fixed import FixedSums, OwnPressure, read, stored
+from particles.integral.fixed import FixedSums, OwnPressure, inner, read, stored
 from particles.integral.lanes import Point
 from particles.integral.layer import Layer, LayerSums
-from particles.integral.positive import COURANT, LEAST, OLD, PART, Limits, Slopes, divided
+from particles.integral.positive import (
+    COURANT,
+    LEAST,
+    OLD,
+    PART,
+    Limits,
+    Slopes,
+    above_cold,
+    crowded,
+    divided,
+    share_of,
+)
 from particles.integral.stream import Stream, Streaming, keep
 from particles.integral.transposed_stress import Heating
 from particles.limits import limit_of
@@ -163,7 +174,7 @@ def flow_of(method: Any, pressure: Any) -> None:
     """Set the default terms of a method that lists none, with the given pressure for an ideal gas and the
     blended one for other fluids. Raises TypeError: the fluid has no entropy."""
     eos = method.eos
-    check_formulas(eos, log_means)
+    check_formulas(eos, log_means, acoustics, share_of, above_cold, crowded)
     chosen = pressure if isinstance(eos, IdealGas) else BlendedPressure
     object.__setattr__(method, "flow", method.flow or (Logarithmic(eos), chosen(eos), Dissipation(eos)))
 
@@ -200,6 +211,7 @@ class StableStream(Stream):
 @limit_of.register(StableStream)
 def _(method: Any, start: np.ndarray) -> float:
     """Longest step that is known to keep rho, e > 0 at the start."""
+    check_state(method.eos, *inner(*start))
     sums = method.start(start.shape[1], Threads(1))
     sums.look_at(start)
     return float(sums.longest())

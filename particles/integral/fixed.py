@@ -90,8 +90,7 @@ class OnPoints:
 @limit_of.register
 def _(method: OnPoints, start: np.ndarray) -> float:
     """Stability limit of RK4: the fastest sound and the fastest diffusion added, over edges and images."""
-    rho = start[0]
-    e = start[3]/rho - (start[1]**2 + start[2]**2)/(2*rho**2)
+    rho, e = inner(*start[:4])
     check_state(method.eos, rho, e)
     (sound, spread), chi = method.fastest, diffusivity(method.eos, method.law, rho, e)
     fast = sound_speed(method.eos, rho, e) + np.sqrt(start[1]**2 + start[2]**2)/rho

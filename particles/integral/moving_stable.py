@@ -98,7 +98,7 @@ class StableRings(Limits, RingSums):
             left, most = dt, self.guess(state, dt)
             while left > 0:
                 h = left/ceil(left/most)
-                before = state.copy(), self.rings, [q.copy() for q in changing(self.rings)]
+                before = state.copy(), self.rings, [q.copy() for q in self.changing()]
                 done, most = self.part(state, h)
                 if done:
                     left -= h
@@ -155,7 +155,8 @@ class StableRings(Limits, RingSums):
         self.lead(bench.middle)
         self.sending.follow(self.edges)
         if turned < 0:
-            turned = max(self.threads(_turned, self.n, y[:2] + h*y[2:4], self.rings))
+            found = self.threads(_turned, self.n, y[:2] + h*y[2:4], self.rings)
+            turned = min((i for i in found if i >= 0), default=-1)      # the first, whatever the threads
         return int(turned)
 
     def sound(self, y: np.ndarray) -> bool:
@@ -178,7 +179,7 @@ class StableRings(Limits, RingSums):
     def go_back(self, state: np.ndarray, before: np.ndarray, rings: Any, parts: list[np.ndarray]) -> None:
         """Restore the start of a part; free points around a triangle that would turn get one velocity."""
         state[:], self.rings, self.edges = before, rings, rings.edges
-        for array, old in zip(changing(rings), parts):
+        for array, old in zip(self.changing(), parts):
             array[:] = old
         self.refused += self.turned >= 0 or self.lost < self.n
         if self.turned >= 0:
@@ -187,6 +188,11 @@ class StableRings(Limits, RingSums):
             ring = np.array([self.turned, *near.astype(int)])
             state[2:4, ring[self.bench.free[ring]]] = state[2:4, ring].mean(axis=1, keepdims=True)
 
+    def changing(self) -> tuple[np.ndarray, ...]:
+        """Arrays that flips change, and their number."""
+        edges, rings = self.rings.edges, self.rings
+        return edges.first, edges.taken, edges.near, rings.room, rings.end, self.bench.flipped
+
     def end(self, state: np.ndarray, h: float) -> str:
         """Message why the run cannot go on, with the point, its state and its edges."""
         i = self.turned if self.turned >= 0 else self.lost
@@ -194,11 +200,6 @@ class StableRings(Limits, RingSums):
         return (f"no step of {h:.3g} or more leaves the point at ({x:.4g}, {y:.4g}) triangles, density and "
                 f"energy that are positive: m = {state[6, i]:.4g}, V = {V:.4g}, E = {state[8, i]:.4g}, "
                 f"{self.edges.taken[i]} edges; take more rows, or a smoother start")
-
-
-def changing(rings: Any) -> tuple[np.ndarray, ...]:
-    """Arrays that flips change."""
-    return rings.edges.first, rings.edges.taken, rings.edges.near, rings.room, rings.end
 
 
 @dataclass(frozen=True, kw_only=True)

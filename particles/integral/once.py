@@ -1,8 +1,9 @@
 """Exchange over edges, each evaluated once, many at a time: what one end gains the other loses.
 
 For terms without a branch, so that the loop over edges becomes vector instructions. Dissipation has a branch:
-it is added afterwards, on the few edges that `astir` finds. Results do not depend on the number of threads,
-as blocks of edges do not, and points add up the exchange of their edges in the order of their rows.
+it is added afterwards, on edges that `astir` finds: one by one, or for the whole block, which differs by
+round-off. Results do not depend on the number of threads, as blocks of edges do not, and points add up the
+exchange of their edges in the order of their rows.
 """
 from typing import NamedTuple
 
