@@ -37,7 +37,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             done = compare(words.scene, words.methods, words.rows, **more)
         print(done)
         done.plot(path)
-    except (ValueError, TypeError, OSError, Divergence) as error:
+    except (ValueError, TypeError, OSError, MemoryError, Divergence) as error:
         return say(str(error), 1)
     except KeyboardInterrupt:
         kept = f"goes on from {resume}" if resume.exists() else "starts anew, nothing is kept"

@@ -173,7 +173,9 @@ def followed(scene: Any, made: Ready, plan: Plan, name: str, progress: bool | No
         try:
             done = run(made.method, made.start, plan, tell)
         except Divergence as error:     # no step is short enough for a flow that is not resolved
-            raise Divergence(error.step, f"{error}; or take more rows") from None
+            sturdy = f"{name}-entropy-stable"
+            more = f", or {sturdy}, which takes shocks" if sturdy in METHODS else ""
+            raise Divergence(error.step, f"{error}; or take more rows{more}") from None
     history = pd.DataFrame({"t": np.array(done.times)/duration(scene)[1], **done.series})
     at = seen(made.method, done.by_id())
     return {"history": history, "at": at, "numbers": numbers(scene, history, at), "dt": plan.dt,
