@@ -172,9 +172,9 @@ def other_box():
     (lambda: solve(RB, "grid", Ra=1e4), r"nothing is called 'Ra'; near to it are ra\b"),
     (lambda: solve("taylor-green", "grid", ra=1e4),
      "nothing is called 'ra'; there are rows, mach, seed, time, dt, resume, progress$"),
+    (lambda: compare("couette", [], rows=8), r"got methods \[\], rows 8; give one of each"),
     (lambda: compare("couette", ["grid"], row=8), "called 'row'; near to it are rows"),
-    (lambda: solve(RayleighBenard(ra=1e4, L=8.0), "grid", prr=2.0), "called 'prr'; near to it are pr"),
-])
+    (lambda: solve(RayleighBenard(ra=1e4, L=8.0), "grid", prr=2.0), "called 'prr'; near to it are pr")])
 def test_what_cannot_be_solved_is_refused_with_a_way_out(call, words):
     with pytest.raises((ValueError, TypeError), match=words):
         call()

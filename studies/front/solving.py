@@ -186,11 +186,16 @@ def compare(scene: Any, methods: Sequence[Any], rows: Sequence[int] | int = (16,
             **more: Any) -> Comparison:
     """Solve a scene by several methods at several resolutions; runs that diverge are listed apart.
 
-    scene, methods, more : as of `solve`. Raises ValueError: as `solve`, for each run when its turn comes.
+    scene, methods, more : as of `solve`. Raises ValueError: no method or no number of rows; as `solve`, for
+    each run when its turn comes.
     """
     solutions, diverged = [], {}
-    for method in [methods] if isinstance(methods, str) else methods:
-        for count in [rows] if isinstance(rows, int) else rows:
+    chosen = [methods] if isinstance(methods, str) else methods
+    counts = [rows] if isinstance(rows, int) else rows
+    if not (len(chosen) and len(counts)):
+        raise ValueError(f"nothing to compare: got methods {methods!r}, rows {rows!r}; give one of each")
+    for method in chosen:
+        for count in counts:
             try:
                 solutions.append(solve(scene, method, rows=count, **more))
             except Divergence as error:
