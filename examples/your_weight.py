@@ -14,5 +14,5 @@ slope.of(Quartic)(lambda weight, q: -8*(1 - q**2)**3)       # phi'(q)/q
 
 mine = PRINTED._replace(name="quartic", weight=Quartic)
 done = compare("rayleigh-benard", ["grid", "spam", mine], rows=sized((16, 24), (8,)), time=sized(60, 5))
-print(done)
+print(done)         # with this weight the flow stops and particles jostle: K is small, K_particles is not
 done.plot(picture("your_weight"))

@@ -14,18 +14,7 @@ from particles.integral.exchange import Pressure, pressure_of
 from particles.integral.fixed import FixedSums, OwnPressure, inner, read, stored
 from particles.integral.lanes import Point
 from particles.integral.layer import Layer, LayerSums
-from particles.integral.positive import (
-    COURANT,
-    LEAST,
-    OLD,
-    PART,
-    Limits,
-    Slopes,
-    above_cold,
-    crowded,
-    divided,
-    share_of,
-)
+from particles.integral.positive import COURANT, FORMULAS, LEAST, OLD, PART, Limits, Slopes, divided
 from particles.integral.stream import Stream, Streaming, keep
 from particles.integral.transposed_stress import Heating
 from particles.limits import limit_of
@@ -174,7 +163,7 @@ def flow_of(method: Any, pressure: Any) -> None:
     """Set the default terms of a method that lists none, with the given pressure for an ideal gas and the
     blended one for other fluids. Raises TypeError: the fluid has no entropy."""
     eos = method.eos
-    check_formulas(eos, log_means, acoustics, share_of, above_cold, crowded)
+    check_formulas(eos, log_means, acoustics, *FORMULAS)
     chosen = pressure if isinstance(eos, IdealGas) else BlendedPressure
     object.__setattr__(method, "flow", method.flow or (Logarithmic(eos), chosen(eos), Dissipation(eos)))
 

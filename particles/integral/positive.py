@@ -180,3 +180,5 @@ def crowded(eos, before, after):
 above_cold.of(IdealGas)(lambda eos, state: state)
 crowded.of(IdealGas)(lambda eos, before, after: False)
 share_of.of(IdealGas)(lambda eos, a, rho, px, py, eps: share(a, rho, px, py, eps))
+#: what a fluid needs for limits
+FORMULAS = share_of, above_cold, crowded
