@@ -2,9 +2,9 @@
 
     python -m bench.points_speed
 
-One core, CPU time, 20 000 points between plates in the developing rolls of the start; the kinds take turns.
-Rows are medians and quartiles over the repeats. Writes results/bench/points_speed.csv; takes a minute, on a
-quiet machine.
+One core, CPU time, 20 000 points between plates in the developing rolls of the start, unless a row says
+otherwise; the kinds take turns. Rows are medians and quartiles over the repeats. Writes
+results/bench/points_speed.csv; takes five minutes, on a quiet machine.
 """
 import time
 from collections.abc import Callable
@@ -141,43 +141,48 @@ def marched(name: str, **changes: Any) -> Callable[[], float]:
     return step(replace(method, **changes), state, RK4.evaluations)
 
 
+def kinds() -> dict[str, Callable[[], float]]:
+    """Measurements by row of the table."""
+    return {"fixed points, h = 2 a": fixed("fixed-lattice"),
+            "fixed points, h = 3 a": fixed("fixed-lattice-h3"),
+            "fixed points, h = 3 a, edge by edge": fixed("fixed-lattice-h3", fast=False),
+            "fixed points, Delaunay": fixed("fixed-jittered-delaunay"),
+            "fixed points, h = 2 a, edge by edge": fixed("fixed-lattice", fast=False),
+            "fixed points, Delaunay, edge by edge": fixed("fixed-jittered-delaunay", fast=False),
+            "fixed points, h = 2 a, edge by edge, in steps": marched("fixed-lattice", form=LayerSums),
+            "fixed points, Delaunay, edge by edge, in steps": marched("fixed-jittered-delaunay",
+                                                                      form=LayerSums),
+            "lattice, entropy-stable, in steps": marched(LATTICE),
+            "Delaunay, entropy-stable, in steps": marched(DELAUNAY),
+            "lattice, entropy-stable": fixed(LATTICE),
+            "lattice, entropy-stable, steady rolls": in_rolls(LATTICE),
+            "lattice, entropy-stable, Sod's tube": entropy_stable(LATTICE),
+            "lattice, entropy-stable, noise": entropy_stable(LATTICE, 0.3),
+            "Delaunay, entropy-stable": fixed(DELAUNAY),
+            "Delaunay, entropy-stable, steady rolls": in_rolls(DELAUNAY),
+            "Delaunay, entropy-stable, Sod's tube": entropy_stable(DELAUNAY),
+            "Delaunay, entropy-stable, noise": entropy_stable(DELAUNAY, 0.3),
+            "moving points, a step": closed("moving"),
+            "moving points, a step, open faces": closed("moving-open-faces"),
+            "moving delaunay, a step": step(*ready(SCENE, "moving-delaunay")[:2], ahead=0),
+            "moving delaunay, entropy-stable, a step": step(*ready(SCENE, MOVING)[:2], ahead=0),
+            "moving delaunay, entropy-stable, Sod's tube, a step": step(*ready(TUBE, MOVING)[:2], ahead=0),
+            **parts_of_a_step(),
+            "moving, plain bracket": bracket("moving-literal-printed-heat"),
+            "moving, plain bracket, mended": bracket("moving-literal"),
+            "moving, plain bracket, constant mass": bracket("moving-constant-mass-printed-heat"),
+            "moving, plain bracket, with lists and steps": marched("moving-literal-printed-heat"),
+            **{name: bracket(name) for name in ("spam", *(f"spam-{maker}" for maker in TODAY))}}
+
+
 def main() -> None:
     """Measure, print, and write the table."""
-    kinds = {"fixed points, h = 2 a": fixed("fixed-lattice"),
-             "fixed points, h = 3 a": fixed("fixed-lattice-h3"),
-             "fixed points, h = 3 a, edge by edge": fixed("fixed-lattice-h3", fast=False),
-             "fixed points, Delaunay": fixed("fixed-jittered-delaunay"),
-             "fixed points, h = 2 a, edge by edge": fixed("fixed-lattice", fast=False),
-             "fixed points, Delaunay, edge by edge": fixed("fixed-jittered-delaunay", fast=False),
-             "fixed points, h = 2 a, edge by edge, in steps": marched("fixed-lattice", form=LayerSums),
-             "fixed points, Delaunay, edge by edge, in steps": marched("fixed-jittered-delaunay",
-                                                                       form=LayerSums),
-             "lattice, entropy-stable, in steps": marched(LATTICE),
-             "Delaunay, entropy-stable, in steps": marched(DELAUNAY),
-             "lattice, entropy-stable": fixed(LATTICE),
-             "lattice, entropy-stable, steady rolls": in_rolls(LATTICE),
-             "lattice, entropy-stable, Sod's tube": entropy_stable(LATTICE),
-             "lattice, entropy-stable, noise": entropy_stable(LATTICE, 0.3),
-             "Delaunay, entropy-stable": fixed(DELAUNAY),
-             "Delaunay, entropy-stable, steady rolls": in_rolls(DELAUNAY),
-             "Delaunay, entropy-stable, Sod's tube": entropy_stable(DELAUNAY),
-             "Delaunay, entropy-stable, noise": entropy_stable(DELAUNAY, 0.3),
-             "moving points, a step": closed("moving"),
-             "moving points, a step, open faces": closed("moving-open-faces"),
-             "moving delaunay, a step": step(*ready(SCENE, "moving-delaunay")[:2], ahead=0),
-             "moving delaunay, entropy-stable, a step": step(*ready(SCENE, MOVING)[:2], ahead=0),
-             "moving delaunay, entropy-stable, Sod's tube, a step": step(*ready(TUBE, MOVING)[:2], ahead=0),
-             **parts_of_a_step(),
-             "moving, plain bracket": bracket("moving-literal-printed-heat"),
-             "moving, plain bracket, mended": bracket("moving-literal"),
-             "moving, plain bracket, constant mass": bracket("moving-constant-mass-printed-heat"),
-             "moving, plain bracket, with lists and steps": marched("moving-literal-printed-heat"),
-             **{name: bracket(name) for name in ("spam", *(f"spam-{maker}" for maker in TODAY))}}
-    found: dict[str, list[float]] = {name: [] for name in kinds}
-    for measure in kinds.values():
+    timed = kinds()
+    found: dict[str, list[float]] = {name: [] for name in timed}
+    for measure in timed.values():
         measure()       # loads what is compiled
     for _ in range(REPEATS):
-        for name, measure in kinds.items():
+        for name, measure in timed.items():
             found[name].append(measure())
     points = round(SCENE.width*SCENE.L)
     rows = [time_row(name, points, 1, values) for name, values in found.items()]
