@@ -117,8 +117,7 @@ def toy(value):
     (one("rows", "exact", "kind == 'a'"), "no column kind"), (one("rows", "y + (", n=2), "is no formula"),
     (one("rows", "where(exact)", n=2), "cannot be computed"),
     (one("rows", "y/exact", n=2), "y_err: say what the error is, as in err='y_err/exact', or err='0'"),
-    (one("rows", "exact", name="a"), "2 such rows"),
-])
+    (one("rows", "exact", name="a"), "2 such rows")])
 def test_a_mistake_is_one_line_with_study_claim_and_table(value, words):
     with pytest.raises(OtherTable, match=words) as error:
         judge([toy(value)], TABLES, "toys")
