@@ -9,6 +9,7 @@ import sys
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
+from time import thread_time
 from typing import Any
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -27,7 +28,7 @@ os.environ.setdefault("NUMBA_CACHE_DIR", str(ROOT / ".numba_cache" / source_hash
 
 import llvmlite.binding  # noqa: E402  (numba reads the cache folder when it is imported)
 import numba  # noqa: E402
-from numba.core import caching, codegen, cpu  # noqa: E402
+from numba.core import caching, codegen, cpu, event  # noqa: E402
 from numba.extending import overload, register_jitable  # noqa: E402
 
 # another module may have imported numba before
@@ -198,3 +199,25 @@ def check_formulas(value: Any, *functions: Any) -> None:
         lines = ", ".join(f"@{name}.of({kind.__name__})" for name in lacking)
         raise TypeError(f"{kind.__name__} has no formula for {' and '.join(lacking)}: add {lines}, as for "
                         "the others of its kind in continuum/fluid.py")
+
+
+class Compiling(event.Listener):
+    """CPU seconds that this thread spends in numba's compiler; nested calls count once."""
+
+    def __init__(self) -> None:
+        self.depth, self.started, self.seconds = 0, 0.0, 0.0
+
+    def on_start(self, event: Any) -> None:
+        if self.depth == 0:
+            self.started = thread_time()
+        self.depth += 1
+
+    def on_end(self, event: Any) -> None:
+        self.depth -= 1
+        if self.depth == 0:
+            self.seconds += thread_time() - self.started
+
+
+def compiling() -> Any:
+    """Context that counts the `seconds` of what is compiled within it."""
+    return event.install_listener("numba:compile", Compiling())

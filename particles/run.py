@@ -6,9 +6,9 @@ from time import monotonic, process_time
 from typing import Any
 
 import numpy as np
-from numba.core.event import Listener, install_listener
 from numpy.typing import ArrayLike
 
+from continuum.jit import compiling
 from particles.checkpoint import load, save
 from particles.fields import check_plain
 from particles.integrators import RK4
@@ -50,21 +50,6 @@ class Interrupt:
             signal(SIGINT, default_int_handler)
 
 
-class Compiling(Listener):
-    """CPU seconds of what numba compiles, of compilations within others once."""
-    depth, began, seconds = 0, 0.0, 0.0
-
-    def on_start(self, event: Any) -> None:
-        if self.depth == 0:
-            self.began = process_time()
-        self.depth += 1
-
-    def on_end(self, event: Any) -> None:
-        self.depth -= 1
-        if self.depth == 0:
-            self.seconds += process_time() - self.began
-
-
 def run(method: Any, start: ArrayLike, plan: Plan, progress: Callable[[float], None] | None = None) -> Run:
     """Advance `start`, array-like (fields, n), by the plan; `progress` is called with the fraction done.
 
@@ -82,7 +67,7 @@ def run(method: Any, start: ArrayLike, plan: Plan, progress: Callable[[float], N
     sums.try_out(now)       # loads or compiles most code
     began, saved = process_time(), monotonic()
     now.compile_s += began - before
-    with Interrupt() as interrupt, install_listener("numba:compile", Compiling()) as late:
+    with Interrupt() as interrupt, compiling() as late:
         try:
             while now.step < plan.steps:
                 _advance(method, plan, sums, integrator, now)

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.polynomial import legendre
 
 from continuum.spectral.laws import BoussinesqLaws
-from continuum.spectral.modes import RHO, VX, VY, T, along_y, polynomials
+from continuum.spectral.modes import RHO, VX, VY, T, along_y, polynomials_at
 from continuum.spectral.newton import Galerkin, SpectralState, relaxed
 
 
@@ -39,7 +39,7 @@ class Cavity(Galerkin):
         self.kept[RHO, 0, 0] = False        # the mean is fixed
 
     def anywhere(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        along_x, upright = (polynomials(each, self.n)[0] for each in x.T)
+        along_x, upright = (polynomials_at(each, self.n)[0] for each in x.T)
         return along_x, upright[[VX, VY, RHO, RHO]]
 
     def terms(self, at: np.ndarray) -> np.ndarray:

@@ -23,14 +23,14 @@ class Along(NamedTuple):
     functions: np.ndarray
 
 
-def waves(x: np.ndarray, n: int, width: float) -> np.ndarray:
+def waves_at(x: np.ndarray, n: int, width: float) -> np.ndarray:
     """Values and slopes of each field's n waves at x (points,), (2, 4, points, n). Fluid rises at x = 0."""
     k = 2*np.pi*np.arange(n)/width
     sin, cos = np.sin(np.outer(x, k)), np.cos(np.outer(x, k))
     return np.array([[sin, cos, cos, cos], [k*cos, -k*sin, -k*sin, -k*sin]])
 
 
-def polynomials(y: np.ndarray, n: int) -> np.ndarray:
+def polynomials_at(y: np.ndarray, n: int) -> np.ndarray:
     """Values and slopes of each field's n polynomials at y (points,) of -1/2 to 1/2, (2, 4, points, n)."""
     slopes = legendre.legval(2*y, 2*legendre.legder(np.eye(n + 2))).T
     every = np.array([legendre.legvander(2*y, n + 1), slopes])
@@ -43,11 +43,11 @@ def along_x(n: int, width: float) -> Along:
     """Waves on 0 < x < width/2; lengths are in heights of the layer."""
     count = int(POINTS*n) + 1
     x = (np.arange(count) + 0.5)/count*width/2
-    return Along(x, np.full(count, width/2/count), waves(x, n, width))
+    return Along(x, np.full(count, width/2/count), waves_at(x, n, width))
 
 
 @lru_cache(maxsize=8)
 def along_y(n: int) -> Along:
     """Polynomials on -1/2 < y < 1/2."""
     z, weights = legendre.leggauss(int(POINTS*n) + 3)
-    return Along(z/2, weights/2, polynomials(z/2, n))
+    return Along(z/2, weights/2, polynomials_at(z/2, n))

@@ -12,7 +12,7 @@ import numpy as np
 from scipy.linalg import solve
 from scipy.optimize import brentq
 
-from continuum.spectral.modes import RHO, VX, VY, T, along_x, along_y, polynomials, waves
+from continuum.spectral.modes import RHO, VX, VY, T, along_x, along_y, polynomials_at, waves_at
 from continuum.steady import largest, newton
 
 TINY = 1e-30        # complex step: no difference is taken, so that it has no round-off
@@ -48,7 +48,7 @@ class Galerkin:
 
     def anywhere(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Values at places (points, 2) of the functions along either axis, (4, points, n) each."""
-        return waves(x[:, 0], self.n, self.laws.width)[0], polynomials(x[:, 1], self.n)[0]
+        return waves_at(x[:, 0], self.n, self.laws.width)[0], polynomials_at(x[:, 1], self.n)[0]
 
     def at(self, q: np.ndarray) -> np.ndarray:
         """Fields and their slopes at the points, (4, 3, points in x, in y)."""

@@ -6,9 +6,8 @@ from typing import Any, TypeVar
 import numpy as np
 from scipy.special import stdtrit
 
+from continuum.jit import compiling
 from studies.kit.stats import Measured
-
-from numba.core import event  # isort: skip
 
 REPEATS = 7
 #: half of the interquartile range of 7 repeats -> half width of the 95 % interval of their median:
@@ -17,29 +16,12 @@ SPREAD_TO_ERR = float(stdtrit(REPEATS - 1, 0.975)*np.sqrt(np.pi/(2*REPEATS))/((0
 T = TypeVar("T")
 
 
-class _Compiling(event.Listener):
-    """CPU seconds that this thread spends in numba's compiler; nested calls count once."""
-
-    def __init__(self) -> None:
-        self.depth, self.started, self.seconds = 0, 0.0, 0.0
-
-    def on_start(self, event):
-        if self.depth == 0:
-            self.started = time.thread_time()
-        self.depth += 1
-
-    def on_end(self, event):
-        self.depth -= 1
-        if self.depth == 0:
-            self.seconds += time.thread_time() - self.started
-
-
 def compile_and_run_seconds(f: Callable[[], T]) -> tuple[T, float, float]:
     """Result of ``f()``, CPU seconds of compiling, and CPU seconds of everything else (all threads)."""
-    compiling, begin = _Compiling(), time.process_time()
-    with event.install_listener("numba:compile", compiling):
+    begin = time.process_time()
+    with compiling() as late:
         result = f()
-    return result, compiling.seconds, time.process_time() - begin - compiling.seconds
+    return result, late.seconds, time.process_time() - begin - late.seconds
 
 
 def took(f: Callable[[], Any], clock: Callable[[], float] = time.process_time) -> float:
