@@ -28,7 +28,7 @@ def drags(drag: pd.DataFrame) -> Figure:
     axes[0, 0].set_ylabel("|error| of the drag  [%]")
     page.legend(*axes[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
     page.suptitle("Points on its surface give a cylinder's drag, frozen lattice points err without order\n"
-                  "against Sangani & Acrivos (1982); bars: print and what was not steady")
+                  "against Sangani & Acrivos (1982); bars: rounding in print and drift of the run")
     return page
 
 

@@ -16,7 +16,7 @@ SOUND = {"speed": ("speed of sound over c", "")}
 SIZE = {"rows": ("points along the side of the cell", ""), "variant": ("how the body is made", ""),
         "error": ("drag/published - 1", "")}
 TORQUE = {"exchange": ("of momentum: an equation, or halves of the ends' own", ""),
-          "viscosity": ("of nested friction", ""),
+          "viscosity": ("viscosity of nested friction", ""),
           "torque": ("|sum x cross f| over sum |x| |f|, x the edge or the place of the point", "")}
 RINGS = {"rows": ("points along the side of the box", "")}
 
@@ -50,7 +50,7 @@ ALL = (
     Table.of("beside", "a b", "start end volumes",
              about="Eq. 50 beside smooth particles, from one state: relative rms differences.",
              means={"start": ("of accelerations at the start", ""), "end": ("of velocities after 5 t0", ""),
-                    "volumes": ("of volumes from 1 over the summed density, then", "")}),
+                    "volumes": ("of volumes then from 1 over the summed density", "")}),
     Table.of("torques", "exchange maker points seed", "torque", means=TORQUE,
              about="What an exchange over edges does to angular momentum, random fields, points that stay."),
     Table.of("motion_torques", "motion viscosity", "torque", means=TORQUE,

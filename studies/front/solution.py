@@ -97,7 +97,7 @@ class Solution:
 
     def __str__(self) -> str:
         """Method, rows, numbers and cost in one line."""
-        numbers = ", ".join(f"{name} = {value}" for name, value in self.numbers.items())
+        numbers = ", ".join(f"{name} = {brief(value)}" for name, value in self.numbers.items())
         return f"{self.method}, {self.rows} rows: {numbers}  ({self.cpu_s:.1f} s of CPU, {self.steps} steps)"
 
 
@@ -154,11 +154,16 @@ class Comparison:
 
     def __str__(self) -> str:
         """The table, with errors in units of the last digit, then the runs that diverged."""
-        rows = pd.DataFrame([row(one, {name: str(q) for name, q in one.numbers.items()})
+        rows = pd.DataFrame([row(one, {name: brief(q) for name, q in one.numbers.items()})
                              for one in self.solutions])
         table = rows.to_string(index=False, na_rep="", float_format="{:.2g}".format)
         diverged = [f"{name}: {why}" for name, why in self.diverged.items()]
         return "\n".join([table]*bool(self.solutions) + diverged)
+
+
+def brief(number: Measured) -> str:
+    """A number as text, with its error over time; with five digits where that is below the fifth."""
+    return str(number if number.err > 1e-5*abs(number.value) else Measured(number.value))
 
 
 def row(one: Solution, numbers: dict[str, Any]) -> dict[str, Any]:
@@ -210,7 +215,7 @@ def along(axes: Axes, solution: Any, axis: str) -> None:
         axes.plot(at[axis], at[name], **dots, label=NAMES[name])
         if exact:
             axes.plot(at[axis], exact[name], color="black", marker="", linestyle="-", linewidth=0.8)
-    axes.set(xlabel=axis, ylabel="exact: black line" if exact else "")
+    axes.set(xlabel=axis, ylabel="black: exact" if exact else "")
     axes.legend()
 
 
@@ -219,9 +224,10 @@ def past(axes: Axes, history: pd.DataFrame) -> None:
     axes.plot(history["t"], history["K"], marker="", label="K")
     axes.set(xlabel="time, in units of the scene", ylabel="K", ylim=(0, None))
     if "Nu" in history:
+        late = history["Nu"][len(history)//4:]      # at the start it may be a hundred times as large
         right = axes.twinx()
         right.plot(history["t"], history["Nu"], marker="", color="#D55E00", linestyle="--")
-        right.set_ylabel("Nu (dashed)")
+        right.set(ylabel="Nu (dashed)", ylim=(min(0.0, 1.1*late.min()), max(1.0, 1.2*late.max())))
         right.grid(False)
 
 
@@ -234,4 +240,6 @@ def against_cost(axes: Axes, table: pd.DataFrame, name: str) -> None:
         axes.annotate(f"{rows}", (place[0], place[1]), textcoords="offset points", xytext=(4, 4), fontsize=7)
     axes.set(xscale="log", xlabel="CPU  [s]", ylabel=name, yscale="log" if name == "error" else "linear")
     numbered(axes.xaxis)
+    if name == "error":
+        numbered(axes.yaxis)
     axes.legend(fontsize=7)

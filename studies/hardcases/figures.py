@@ -77,13 +77,15 @@ def chart(rows: pd.DataFrame) -> Figure:
     axes.grid(False)
     parts = [rows[rows.method.str.endswith(LISTED) == listed] for listed in (False, True)]
     ends = [f"{(part.outcome == 'diverges').sum()} of {len(part)}" for part in parts]
-    page.suptitle(f"Without the entropy-stable flux {ends[0]} cells end early, with it {ends[1]}")
+    page.suptitle(f"Without the entropy-stable flux {ends[0]} trials end early, with it {ends[1]}")
     page.supxlabel(fill(KEY, 112), fontsize=8, x=0.01, ha="left")
     return page
 
 
 def tenths(error: float) -> str:
-    """An error as text: with one decimal below 9.5, without above."""
+    """An error as text: with one decimal below 9.5, without above; near its limit with two."""
+    if abs(error - 1) < 0.05:
+        return f"{error:.2f}"
     return f"{error:.1f}" if error < 9.5 else f"{error:.0f}" if error < 1e4 else f"{error:.0e}"
 
 
@@ -94,7 +96,7 @@ def shocks(ripples: pd.DataFrame) -> Figure:
         theory = impulse(scale, steep)
         time = rows.time/theory.meets
         rise = rows.height - rows.height[rows.time == rows.time.min()].mean()
-        label = rf"$ka$ = {steep:g}, {scale:g} x printed size"
+        label = rf"$k$ x amplitude = {steep:g}, {scale:g} x printed size"
         band(left, rise/(theory.kick*theory.back), time, number, label)
         band(right, rows.amplitude/theory.amplitude, time, number, label)
     theory = impulse(ripples.scale.max(), ripples.steep.max())
@@ -103,7 +105,7 @@ def shocks(ripples: pd.DataFrame) -> Figure:
     left.plot(times/theory.meets, heights/(theory.kick*theory.back), **DASHED, label="exact")
     growth = 1 + theory.growth*(theory.back - theory.meets)/theory.amplitude
     right.plot([1, theory.back/theory.meets], [1, growth], **DASHED, label="impulsive theory")
-    left.set(ylabel="height of the interface / kick x time")
+    left.set(ylabel="height of the interface / its rise by the shock")
     right.set(ylabel="amplitude / that behind the shock", ylim=(0.4, 2.9))
     for axes, place in ((left, "upper right"), (right, "upper left")):
         axes.set_xlabel("time / time of the shock's arrival")
@@ -121,7 +123,7 @@ def band(axes: Any, values: pd.Series, time: pd.Series, number: int, label: str)
     axes.fill_between(of_seeds.index, of_seeds["min"], of_seeds["max"], color=style["color"], alpha=0.2)
 
 
-BINS = 4                # of Ra per decade
+BINS, FEW = 4, 5        # bins of Ra per decade; least number of runs of a bin with a median
 #: kind of limit -> shift from the method's line, style of its markers
 LIMITS: dict[str, tuple[float, dict]] = {"wrong": (0.3, {"markerfacecolor": "white"}), "ends": (-0.3, {})}
 
@@ -135,11 +137,12 @@ def highest(rows: pd.DataFrame, summary: pd.DataFrame) -> Figure:
         fates(under, rows.query(own), summary.query(own), number)
     for level in (OFF, 1/OFF):
         above.axhline(level, color="grey", linewidth=0.8)
-    above.set(xscale="log", ylabel="K / K of 48 rows of the grid",
+    above.set(xscale="log", ylabel="K / K of the grid, 48 rows",
               title=f"lines: medians of {BINS:g} bins a decade; grey: a factor of {OFF:g}")
+    above.text(0.98, 0.05, "no reference beyond Ra 1e6", transform=above.transAxes, ha="right", fontsize=8)
     above.legend(loc="center right")
     under.set(xlabel="Ra", ylim=(len(IN_LAYERS) - 0.4, -0.6),
-              title="open marks: first wrong; filled: first that ends; bars: the range over starts\n"
+              title="open: first wrong or ended; filled: first that ends; bars: range over starts\n"
                     "ticks: runs that came to their end; crosses: runs that did not")
     under.set_yticks(range(len(IN_LAYERS)), labels=list(IN_LAYERS), fontsize=8)
     page.suptitle(f"On {ROWS} rows grid and points that stay end near Ra 5e5; moving points go on, but wrong")
@@ -150,7 +153,7 @@ def trend(axes: Any, rows: pd.DataFrame, number: int, label: str) -> None:
     """Plot all runs that reached their end, pale, and their medians in bins of Ra."""
     axes.plot(rows.ra, rows.over, **dots(number, 3), alpha=0.4)
     bins = (BINS*np.log10(rows.ra)).round()
-    middle = rows.groupby(bins)[["ra", "over"]].median()
+    middle = rows.groupby(bins)[["ra", "over"]].median()[bins.value_counts() >= FEW]
     axes.plot(middle.ra, middle.over, **look(number), label=label)
 
 

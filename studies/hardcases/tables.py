@@ -18,7 +18,7 @@ TABLES = (
              means={"kind": ("wrong: K is, or the run ended; ends: the run ended", ""),
                     "ra": ("Ra from which on runs are so; none if they are nowhere. Its error is half of the "
                            "interval between two trials", ""),
-                    "outcome": ("of the first bad run", "")}),
+                    "outcome": ("how the first bad run ends", "")}),
     Table.of("high_ra_summary", "method step kind", "ra ra_low ra_high seeds outcome",
              about="The same over seeds, means of logarithms.",
              means={"kind": ("wrong or ends", ""), "ra": ("Ra from which on runs are so", ""),

@@ -142,8 +142,8 @@ FREEZING_FLOW = Table.of("freezing_flow", "ra rows", "fastest",
                          about="How uneven the grid's flow of that gas is.")
 DEBYE = Table.of("debye", CRYSTAL, "sound shear",
                  about="Long waves on a lattice: their number below a frequency over that of the fluid's.",
-                 means={"sound": ("of the faster ones", ""),
-                        "shear": ("of the slower ones, if none grows", "")})
+                 means={"sound": ("that of the faster waves", ""),
+                        "shear": ("that of the slower ones, if none grows", "")})
 OVER = "over that of the exact flow"
 DRIVEN = Table.of(
     "driven", "variant h rows seed mode walls U thick P",

@@ -39,7 +39,7 @@ def stress(driven: pd.DataFrame, laws: pd.DataFrame, foretold: pd.DataFrame) -> 
         errorbar(right, some.measured, some.predicted, some.predicted_err, number=number,
                  label=name_of("spam", kind), xerr=some.measured_err)
     right.axline((0, 0), slope=1, color="grey", linewidth=0.6)
-    right.set(xlabel="K measured / grid", ylabel="K foretold / grid", xlim=(-0.05, 1.3), ylim=(-0.05, 1.3))
+    right.set(xlabel="K measured / grid", ylabel="K predicted / grid", xlim=(-0.05, 1.3), ylim=(-0.05, 1.3))
     for axes in (left, middle, right):
         axes.legend(fontsize=7, loc=(0.48, 0.22) if axes is middle else "upper left")
     page.suptitle("Why smooth particles do not converge: sheared, they bear a stress that rows do not lessen")

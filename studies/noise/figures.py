@@ -27,10 +27,11 @@ def printed(rows: pd.DataFrame) -> Figure:
             axes.plot(k, group["predicted"], color=style["color"], marker="", lw=0.8)
         axes.axhline(1, color="black", lw=1)
         axes.set(yscale="log", title=title, xlabel="$ka$")
-    panels[0].set_ylabel("variance of the noise / $2k_BT\\Gamma$")
+    panels[0].set_ylabel("variance of the noise / its due, $2k_BT\\Gamma$")
     page.legend(*panels[1].get_legend_handles_labels(), loc="outside lower center", ncols=5)
     page.suptitle("No printed noise fits the transport of Eqs 37, 38 at all wavelengths ($T = 0.7$)\n"
-                  r"filled: bracket read as $\pi_{ij} + \pi_{ji}$; open: as $\pi_{ij}$; lines: lattice sums")
+                  r"filled: stress read as $\pi_{ij} + \pi_{ji}$; open: as $\pi_{ij}$; lines: lattice sums"
+                  "\nEq. 23 lies below Eq. 25 on the left")
     return page
 
 

@@ -34,7 +34,7 @@ def line(energies: pd.DataFrame, lines: pd.DataFrame, critical: pd.DataFrame) ->
               ylabel="off the line\n[% of largest $K$]")
     ra_axis(upper)
     upper.set(xlabel="")
-    upper.legend(title="gas, $\\eta$ constant, line to 4 Ra$_c$")
+    upper.legend(title="gas, $\\eta$ constant, line from 1.11 to 4 Ra$_c$")
     zeros(panels["zeros"], critical)
     page.suptitle("K is nearly a straight line; where it ends depends on how far it reaches")
     return page

@@ -86,7 +86,7 @@ def makers(orders: pd.DataFrame) -> Figure:
         axes.set(yscale="log", ylabel=f"{label}\nrms error", ylim=(floor, 6))
         axes.set_xticks(range(len(SETS)), labels=SETS, rotation=30)
     legend(page, panels[0, 0], 5)
-    page.suptitle("Areas of today's smooth particles, 48 spacings across a wave; grey: round-off")
+    page.suptitle("Off a lattice only closed faces and Delaunay edges close; 48 rows a wave; grey: round-off")
     return page
 
 

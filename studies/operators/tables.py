@@ -70,7 +70,7 @@ ENTROPY = Table.of("entropy", "transport maker points d state cells seed", "tota
                    about="Entropy that stress and heat current, or a flow, produce in one state, or in 200 "
                          "random ones.",
                    means={"state": ("smooth; random; sought: where a descent ends", ""),
-                          "total": ("over that of the continuum, of the smooth state", ""),
+                          "total": ("production of the smooth state over that of the continuum", ""),
                           "least": ("production over the sum of what cancels in it, least of the states", ""),
                           "negative": ("share of the edges that destroy entropy", "")})
 

@@ -95,7 +95,7 @@ def over_range(flows: pd.DataFrame) -> Figure:
         axes.set_xlim(left=left)
         below(axes, ncols=2)
     panels[0].set_ylabel("relative error")
-    page.suptitle("Errors are least at the shortest ranges: $a < r_0$ need not hold on a lattice\n"
+    page.suptitle("Errors are least at 1.2 to 1.5 $a$: $a < r_0$ need not hold on a lattice\n"
                   "Lucy's weight, renormalised; dotted: 1 %, hollow: K too low")
     return page
 

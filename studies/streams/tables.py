@@ -20,7 +20,7 @@ SECONDS = Table.of("seconds", RIDE, "step_s step_s_err setup_s setup_s_err", abo
                    means=STREAM | {"step_s": ("CPU seconds of a step of all points", "s")})
 NEEDED = Table.of("needed", SERIES, "reached cpu_s low high rows order least", means=STREAM | {
     "reached": ("yes; by order: beyond the rows that ran; at most: the coarsest is below already; no", ""),
-    "cpu_s": ("CPU seconds to an error of 1 %", "s"), "order": ("of the error between the last two", ""),
+    "cpu_s": ("CPU seconds to an error of 1 %", "s"), "order": ("observed order between the finest two", ""),
     "least": ("least error of all rows", "")}, about="What an error of 1 % costs.")
 CROSSINGS = Table.of("crossings", "scene quantity rival", "moving stream low high slowest fastest", means={
     "rival": ("who stands still", ""), "low": ("lower end of its 95 % interval", ""),

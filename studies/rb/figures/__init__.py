@@ -32,7 +32,7 @@ def main(tables: Tables) -> Figure | None:
     spam = looks.finest(spam[spam.particles <= KHP95_PARTICLES]).sort_values("ra")
     whole(upper, tables, limit, spam.assign(steady=looks.steady(tables, spam)))
     over_rows(lower, errors.of_series(looks.errors(tables, **LAYER, ra=max(RA_SHOWN)), SHOWN))
-    page.suptitle("Points converge on the grid, smooth particles do not", fontsize=12)
+    page.suptitle("Points converge on the grid, smooth particles as printed do not", fontsize=12)
     return page
 
 

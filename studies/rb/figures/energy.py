@@ -50,7 +50,7 @@ def name_frozen(axes: Axes, limit: pd.DataFrame, spam: pd.DataFrame) -> None:
     frozen = both[(both.ke_grid > STILL) & (both.ke_field < 0.01*both.ke_grid)]
     line = {"arrowstyle": "-", "lw": 0.6, "shrinkB": 4}
     for ra in frozen.ra:
-        axes.annotate("frozen, from weak rolls", (ra**-0.5, 0), xytext=(-14, 16),
+        axes.annotate("at rest, started from weak rolls", (ra**-0.5, 0), xytext=(-14, 16),
                       textcoords="offset points", fontsize=8, ha="right", arrowprops=line)
 
 
@@ -70,7 +70,7 @@ def fig8(tables: Tables) -> Figure | None:
             axes.plot(run.t_viscous, run[column], label=first, **style)
     style = KIND["grid"] | {"marker": "", "lw": 2.2}
     axes.plot(cells.t_viscous, cells.ke, label="grid", **style)
-    axes.set(title=f"Particles (spam) lag behind the grid, Ra = {RA}    [KHP95, Fig. 8]",
+    axes.set(title=f"Particles (spam) lag behind the grid and end too low, Ra = {RA}    [KHP95, Fig. 8]",
              xlabel=r"time  [$L^2/\nu$]; 1 is 5000 in KHP95's units", ylabel=ENERGY, ylim=(0, None))
     axes.legend(loc="upper right")
     return page
@@ -81,7 +81,7 @@ def variants(tables: Tables) -> Figure | None:
     Filled marks have 50 rows of particles, open ones 25.
     """
     energies = {"Kp": ENERGIES["kp"][1], "Kg": ENERGIES["kg"][1]}
-    see = "No change of the printed scheme makes both energies right"
+    see = "None of these changes makes both energies right"
     return changes(tables, "spam", VARIANTS, (50, 25), energies, see)
 
 
@@ -89,7 +89,7 @@ def moving_points(tables: Tables) -> Figure | None:
     """Errors of the kinetic energy on points that move: with their triangulation, over closed faces with and
     without each ingredient, by the motions of RR98. Filled marks have 40 rows of points, open ones 25.
     """
-    see = "Moving points need the shift and volumes that follow; RR98's motions lose much of K"
+    see = "Over faces moving points need the shift and volumes that follow; RR98's motions lose much of K"
     return changes(tables, "dih", ("moving-delaunay", *MOTIONS, *DRIFT_MOTIONS), (40, 25), {"Kp": "$K$"}, see)
 
 

@@ -44,7 +44,7 @@ EDGES = {
     "on a lattice, weight of Lucy": (
         "fixed-lattice", "fixed-lattice-h3", "fixed-lattice-nested", "fixed-lattice-nested-only",
         "fixed-lattice-printed-heat"),
-    "off a lattice, Delaunay edges (images: behind plates)": (
+    "off a lattice, Delaunay edges (-plates: rows on plates)": (
         "relaxed-plates", "relaxed-delaunay", "fixed-jittered-plates", "fixed-jittered-delaunay",
         "fixed-random-plates", "fixed-random-delaunay"),
     "off a lattice, edges of a weight": (
@@ -96,7 +96,7 @@ def fixed_points(tables: Tables) -> Figure | None:
         finish(axes, kind, of_series(chosen, keys))
         axes.legend(loc="center left", bbox_to_anchor=(1, 0.5), title=PALE, title_fontsize=8)
         axes.set_ylabel(r"$|K/K_\mathrm{grid} - 1|$")
-    page.suptitle("Points that stay converge on a lattice and with Delaunay edges,\n"
+    page.suptitle("Points that stay converge on a lattice and with Delaunay edges that end on plates,\n"
                   f"not with edges of a weight off a lattice (Ra = {max(RA_SHOWN)})\n{SIGNS}")
     return page
 
@@ -177,5 +177,5 @@ def finish(axes: Axes, title: str, line: pd.DataFrame) -> None:
     size = line.error.abs()
     axes.set(xscale="log", yscale="log", title=title, xlabel=ROWS, ylim=(0.4*size.min(), 2*size.max()))
     numbered(axes.yaxis, (1, 2, 5))
-    plain_ticks(axes, sorted({*line.resolution}))
+    plain_ticks(axes, sorted({*line.resolution}, key=lambda rows: (rows not in (25, 50, 100), rows)))
     axes.tick_params(labelbottom=True)
