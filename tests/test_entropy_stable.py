@@ -8,23 +8,25 @@ import pytest
 
 from continuum.fluid import ConstEta, DenseFluid, IdealGas, VanDerWaals
 from continuum.scene import RayleighBenard
+from particles.integral import entropy_fluxes as fluxes
 from particles.integral.edges import NONE_BEYOND
-from particles.integral.entropy_fluxes import CALM, FAINT, STEEPEST, bend, shock, unturned
 from particles.integral.entropy_stable import Positive, StableLayer
 from particles.integral.exchange import At, Listing
-from particles.integral.lanes import BLOCK
+from particles.integral.lanes import BLOCK, SLOPES
+from particles.integral.layer import Layer
 from particles.integral.once import FEW, Sending, empty_once, fill_once
 from particles.integral.points import random
-from particles.integral.positive import Slopes
+from particles.integral.positive import PART, Slopes
 from particles.integral.triangulation import delaunay
-from particles.pairs import Faces, sweep
+from particles.limits import limit_of
+from particles.pairs import Face, Faces, sweep
 from particles.threads import Threads
 from studies.build import SCENES, ready
 
 GAS, VDW, POINTS = IdealGas(2.5), VanDerWaals(0.5, 0.7, 1.5), random((12, 10), 0.4, 1)
 CRITICAL = 8*VDW.a/27/VDW.b
 LATTICE, JITTERED = "fixed-lattice-entropy-stable", "fixed-jittered-delaunay-entropy-stable"
-MOVING = "moving-delaunay-entropy-stable"
+MOVING, LAYERS = "moving-delaunay-entropy-stable", (LATTICE, JITTERED)
 
 
 def closed(*flow, eos=GAS):
@@ -84,6 +86,25 @@ def test_no_start_is_too_violent_and_sums_are_kept(name, fluid):
         assert np.abs(over_a_step_too_long(method, violent(method))[kept]).max() < 1e-14
 
 
+@pytest.mark.parametrize("name", LAYERS)
+def test_friction_shortens_the_proven_step_by_its_rate(name):
+    made = ready(RayleighBenard(ra=1e4, L=8.0), name).method
+    state, rates = made.state(1.0, np.zeros_like(made.x), 1.0), []
+    for eta in (0.0, 1e3):
+        rates.append(1/limit_of(replace(made, law=ConstEta(eta, 0.0)), state))
+    k = 2*np.bincount(made.beyond.i, made.beyond.k, len(made.x)) - made.edges.laplacian.diagonal()
+    assert np.diff(rates) == pytest.approx(PART*1e3*np.max(k/made.edges.V), rel=1e-2)
+
+
+def test_plates_hold_back_what_heats_as_they_do_without_the_flux():
+    made = replace(ready(RayleighBenard(ra=1e4, L=8.0), LATTICE).method, g=0.0, law=ConstEta(1.0, 0.0))
+    made = replace(made, flow=made.flow[:2])     # differs by v^3 from what `Layer` lists
+    plain = Layer(**{name: value for name, value in vars(made).items() if name != "flow"})
+    state = made.state(1.0, 1e-4*np.random.default_rng(1).normal(size=made.x.shape), 1.0)
+    with_flux, without = (evaluated(one, state)[1][3] for one in (made, plain))
+    assert np.abs(with_flux - without).max() < 1e-2*1e-4**2
+
+
 EDGE = SimpleNamespace(dx=0.6, dy=-0.8)
 
 
@@ -93,7 +114,7 @@ def ends(one, other, c=1e-6):
 
 
 def part_of_bends(one, other, c=1e-6):
-    return unturned(*ends(one, other, c), EDGE)
+    return fluxes.unturned(*ends(one, other, c), EDGE)
 
 
 def test_a_bend_of_the_pressure_counts_where_the_flow_shrinks_and_not_where_it_turns():
@@ -114,20 +135,46 @@ def test_a_bend_of_the_pressure_counts_where_the_flow_shrinks_and_not_where_it_t
 
 def test_a_bend_of_the_pressure_counts_by_its_square_and_a_thousandth_where_it_is_looked_at():
     wave = np.diag([1.0, 0.0])
-    sizes = np.array([0.0, FAINT, CALM, 2*CALM, 1.0])
-    parts = [shock(*ends(wave, wave), EDGE, size/STEEPEST) for size in sizes]
-    of_pressure = [0, CALM/(1 + CALM), 1/2, 4/5, 1/(1 + CALM**2)]
+    sizes = np.array([0.0, fluxes.FAINT, fluxes.CALM, 2*fluxes.CALM, 1.0])
+    parts = [fluxes.shock(*ends(wave, wave), EDGE, size/fluxes.STEEPEST) for size in sizes]
+    of_pressure = [0, fluxes.CALM/(1 + fluxes.CALM), 1/2, 4/5, 1/(1 + fluxes.CALM**2)]
     assert np.allclose(parts, np.transpose([of_pressure, sizes]), rtol=1e-9, atol=1e-15)
 
 
 def test_the_limited_mean_leaves_nothing_of_a_line_all_of_an_extremum_and_the_same_from_both_ends():
     for d, before, behind in np.random.default_rng(1).normal(size=(50, 3)):
-        _, left = bend(d, d + before, d + behind, d)
+        _, left = fluxes.bend(d, d + before, d + behind, d)
         mean = 2*before*behind/(before + behind) if before*behind > 0 else 0.0
         assert left == pytest.approx(np.clip(1 - mean/d, 0, 1), abs=1e-12)
-        assert left == pytest.approx(bend(-d, -d - behind, -d - before, -d)[1], abs=1e-14)
-    assert bend(0.3, 0.6, 0.6, 0.3) == pytest.approx((0, 0), abs=1e-15)
-    assert bend(0.0, 0.0, 0.0, 0.0)[0] == 0
+        assert left == pytest.approx(fluxes.bend(-d, -d - behind, -d - before, -d)[1], abs=1e-14)
+    assert fluxes.bend(0.3, 0.6, 0.6, 0.3) == pytest.approx((0, 0), abs=1e-15)
+    assert fluxes.bend(0.0, 0.0, 0.0, 0.0)[0] == 0
+    # a bend is small beside a large jump that dissipates
+    assert fluxes.bend(0.0, 1.0, -0.5, 3.0)[0] == pytest.approx((0.5/7.5)**fluxes.STEEP, rel=1e-12)
+
+
+C = 1.2
+
+
+def gains_along_x(r, rho=1.0, u=0.0, v=0.0):
+    """Gains (4,) of a gas at rest by dissipation on an edge along x to one of rho, u, v and its pressure.
+    r (2,) : velocity of the edge."""
+    ends = [SimpleNamespace(**dict.fromkeys(("g", "hydro", *SLOPES), 0.0), P=1.0, c=C, rx=r[0], ry=r[1],
+                            rho=rho, T=1/rho, vx=u, vy=v) for rho, u, v in ((1.0, 0.0, 0.0), (rho, u, v))]
+    edge = Face(0.5, 0.0, 0.0, 1.0, 0.0)
+    return fluxes.waves(GAS, *ends, edge, *fluxes.jumps(*ends, edge))
+
+
+def test_a_flow_along_an_edge_dissipates_entropy_and_shear_a_tenth_as_much_as_one_across():
+    for number, jump in ((0, {"rho": 2.0}), (2, {"v": 1e-6})):
+        along, across = (gains_along_x(r, **jump)[number] for r in ((0.0, 1.0), (1.0, 0.0)))
+        assert along/across == pytest.approx(0.1/np.hypot(1, 0.1), rel=1e-9) and across > 0
+
+
+def test_the_normal_velocity_is_dissipated_by_its_fastest_wave_times_the_mach_number_below_one():
+    for speed in (0.1, 0.2, 2.0, 4.0):
+        gain = gains_along_x((speed, 0.0), u=1e-9)[1]
+        assert gain/1e-9 == pytest.approx(0.5*(speed + C)*min(1, speed/np.sqrt(1.4)), rel=1e-8)
 
 
 def test_fluids_without_an_entropy_and_plates_that_slide_are_refused():
@@ -140,7 +187,7 @@ def test_fluids_without_an_entropy_and_plates_that_slide_are_refused():
 
 # --- edges that are evaluated once ------------------------------------------------------------------
 
-LAYERS, NARROW = (LATTICE, JITTERED), random((3, 2), 0.2, 1)
+NARROW = random((3, 2), 0.2, 1)
 
 
 def looked_at(method, state, threads=1):

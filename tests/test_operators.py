@@ -19,26 +19,8 @@ from particles.threads import Threads
 from particles.weights import Lucy, WendlandC2, value_and_slope
 from studies.build.fixed import SCHEMES, fluid
 from studies.build.setting import jacobian
-from studies.operators.equations import (
-    PRINTED,
-    Spectral,
-    added_bulk,
-    brackets,
-    gathered,
-    inner,
-    kernel,
-    mass_rate,
-    transported,
-)
-from studies.operators.makers import (
-    NU,
-    hexagonal,
-    layer,
-    of_edges,
-    of_particles,
-    through_faces,
-    through_pairs,
-)
+from studies.operators import equations as eq
+from studies.operators import makers
 from studies.operators.points import LayerGrowth, sound
 from studies.operators.transport import euler_limit
 from studies.operators.weights import around, gradient_symbol, interpolated, line_weight, smoothed
@@ -83,7 +65,7 @@ def test_the_exponential_weight_is_that_of_print():
 # --- sums written out -----------------------------------------------------------------------------
 
 
-def gas(edges, transport=PRINTED, zeta=0.0):
+def gas(edges, transport=eq.PRINTED, zeta=0.0):
     return Dih(edges=edges, eos=IdealGas(), law=ConstEta(0.3, 0.4), zeta=zeta, transport=transport)
 
 
@@ -92,25 +74,26 @@ def test_literal_sums_are_those_of_the_code():
     edges = renormalised(jittered((8, 9), 0.2, 1), WendlandC2.of(h=2.7))
     rng, n = np.random.default_rng(2), edges.n
     rho, v, T = rng.uniform(0.9, 1.1, n), rng.normal(size=(n, 2)), rng.uniform(0.9, 1.1, n)
-    dih, w = gas(edges, zeta=0.1), brackets(edges)
+    dih, w = gas(edges, zeta=0.1), eq.brackets(edges)
     state, still = dih.state(rho, v, T), dih.state(rho, 0*v, T)
-    np.testing.assert_allclose(mass_rate(w, rho, v), rates_of(dih, state)[0], rtol=0, atol=1e-12)
-    friction = transported(dih, dih.flow(state))[1:-1].T
-    np.testing.assert_allclose(-gathered(w, kernel(inner(w, v), 0.3, 0.1, 1.0)), friction, rtol=0, atol=1e-12)
+    np.testing.assert_allclose(eq.mass_rate(w, rho, v), rates_of(dih, state)[0], rtol=0, atol=1e-12)
+    friction = eq.transported(dih, dih.flow(state))[1:-1].T
+    along = eq.gathered(w, eq.kernel(eq.inner(w, v), 0.3, 0.1, 1.0))
+    np.testing.assert_allclose(-along, friction, rtol=0, atol=1e-12)
     conduction = rates_of(dih, still)[-1]
-    np.testing.assert_allclose(gathered(w, 0.4*inner(w, T)), conduction, rtol=0, atol=1e-12)
+    np.testing.assert_allclose(eq.gathered(w, 0.4*eq.inner(w, T)), conduction, rtol=0, atol=1e-12)
 
 
 def test_spectral_derivatives_are_exact():
     phase = 2*np.pi*lattice((12, 12), 1/12).x@np.array([1, 2]) + 0.3
     slope = 2*np.pi*np.cos(phase)[:, None]*[1, 2]
-    np.testing.assert_allclose(Spectral((12, 12)).grad(np.sin(phase)), slope, rtol=0, atol=1e-12)
+    np.testing.assert_allclose(eq.Spectral((12, 12)).grad(np.sin(phase)), slope, rtol=0, atol=1e-12)
 
 
 @pytest.mark.parametrize("d", [1, 2, 3])
 def test_a_dilation_meets_the_bulk_viscosity_only_with_the_trace_factor_2_over_d(d):
-    assert abs(added_bulk(d, 2/d)) < 1e-14
-    assert added_bulk(d, 2/3) == pytest.approx(2/d - 2/3, abs=1e-14)
+    assert abs(eq.added_bulk(d, 2/d)) < 1e-14
+    assert eq.added_bulk(d, 2/3) == pytest.approx(2/d - 2/3, abs=1e-14)
 
 
 # --- what is kept and what grows ------------------------------------------------------------------
@@ -140,13 +123,13 @@ def test_euler_limit_is_where_a_wave_begins_to_grow():
     assert euler_limit(np.array([0.1 + 1j])) == 0
 
 
-@pytest.mark.parametrize(("transport", "right"), [(NestedFluxes(), True), (PRINTED, False)])
+@pytest.mark.parametrize(("transport", "right"), [(NestedFluxes(), True), (eq.PRINTED, False)])
 def test_differences_in_the_inner_sum_mend_nested_transport_on_any_points(transport, right):
     """[Eqs 37, 38]: no friction in a uniform stream, no heat at uniform temperature."""
     edges = renormalised(jittered((10, 10), 0.3, 1), WendlandC2.of(h=3.0))
     dih, one = gas(edges, transport), np.ones(edges.n)
-    friction = transported(dih, dih.flow(dih.state(one, one[:, None]*np.array([0.6, 0.8]), one)))[1:-1]
-    heat = transported(dih, dih.flow(dih.state(one, np.zeros((edges.n, 2)), one)))[-1]
+    friction = eq.transported(dih, dih.flow(dih.state(one, one[:, None]*np.array([0.6, 0.8]), one)))[1:-1]
+    heat = eq.transported(dih, dih.flow(dih.state(one, np.zeros((edges.n, 2)), one)))[-1]
     for rate in (friction, heat):
         size = np.sqrt((rate**2).mean())
         assert size < 1e-13 if right else size > 0.01
@@ -183,7 +166,8 @@ def test_particles_are_asked_as_edges_are():
     B = np.linalg.inv(np.einsum("j,ija,ijb->iab", V, x, grad))
     S = np.einsum("i,j,ijab,ijb->ija", V, V, B[:, None] + B, grad)
     edges = Edges(i=i, j=j, S=S[i, j], k=-2*V[i]*V[j]*slope, apart=apart, V=V)
-    ours, theirs = of_particles(points, weight, Symmetrised), of_edges(points, weight, lambda *_: edges)
+    ours = makers.of_particles(points, weight, Symmetrised)
+    theirs = makers.of_edges(points, weight, lambda *_: edges)
     order, same = np.lexsort(ours.x.round(9)), np.lexsort(theirs.x.round(9))
 
     def wave(x):
@@ -195,14 +179,14 @@ def test_particles_are_asked_as_edges_are():
 
 
 def test_a_triangular_lattice_has_six_neighbours_at_one_distance():
-    points = hexagonal((9, 9), 0.0, 1)
+    points = makers.hexagonal((9, 9), 0.0, 1)
     r = pairs(points, 1.5)[3]
     assert len(r) == 3*points.n and np.ptp(r) < 1e-12 and points.a == pytest.approx(1.0)
 
 
 def test_heat_through_a_plate_is_a_sum_over_pairs_with_images_whatever_pushes():
     points = jittered((9, 8), 0.2, 1)
-    scene, T = layer(points)
+    scene, T = makers.layer(points)
     x, y = points.x.T
     dx = (x[:, None] - x + 4.5) % 9.0 - 4.5
     rho, nu = np.zeros(len(x)), []
@@ -212,12 +196,13 @@ def test_heat_through_a_plate_is_a_sum_over_pairs_with_images_whatever_pushes():
         rho += w.sum(axis=1)
         nu.append(-2*slope*(T[:, None] + T - 2*(scene.T_hot if side < 0 else scene.T_cold)))
     lower, upper = ((f/rho[:, None]/rho).sum()*scene.L/scene.dT/scene.width for f in nu[1:])
-    heat = through_pairs(points, "sph")
+    heat = makers.through_pairs(points, "sph")
     np.testing.assert_allclose(heat, [-lower, upper], rtol=1e-11)
     for maker in ("sumB", "CRKSPH", "riemann"):
-        np.testing.assert_allclose(through_pairs(points, maker), heat, rtol=1e-12)
+        np.testing.assert_allclose(makers.through_pairs(points, maker), heat, rtol=1e-12)
 
 
 def test_heat_through_images_behind_triangles_on_a_lattice_is_of_second_order():
-    coarse, fine = (abs(through_faces(lattice((n, n)), delaunay)/NU - 1).max() for n in (12, 24))
+    heat = (makers.through_faces(lattice((n, n)), delaunay) for n in (12, 24))
+    coarse, fine = (abs(one/makers.NU - 1).max() for one in heat)
     assert coarse/fine == pytest.approx(4, rel=0.1)
