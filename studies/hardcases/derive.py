@@ -4,7 +4,8 @@ Rules of the map, written before the runs. diverges: the run did not reach its e
 more than LEAK. freezes: less than FROZEN of the flow is left. right: the number differs from its expected
 value by at most NEAR plus the uncertainty of the reference; without viscosity by at most the tolerance of
 `columns`, in all starts and steps of a size. wrong: stable, and none of these. refused: the method
-itself rejects the case. unjudged: there is no reference, since fewer than two other grids reached their end.
+itself rejects the case. unjudged: there is no reference, since fewer than two other grids reached their end,
+or it is near to one that is itself unsure by more than NEAR (set after a look at Pr 0.01).
 With 32 rows K is judged in place of the flow, whose averaging cells are those of 16 rows: set after a look.
 """
 from collections.abc import Callable, Iterator
@@ -131,7 +132,9 @@ def outcome(run: pd.Series, number: str, ratio: Measured) -> str:
     if ratio.value < FROZEN:
         return "freezes"
     noisy = number == "flow/start" and abs(run.k/run.k_start - 1) > NEAR
-    return "right" if abs(ratio.value - 1) <= NEAR + ratio.err and not noisy else "wrong"
+    if noisy or abs(ratio.value - 1) > NEAR + ratio.err:
+        return "wrong"
+    return "right" if ratio.err <= NEAR else "unjudged"
 
 
 def of_probes(probes: pd.DataFrame) -> Iterator[Row]:
