@@ -131,4 +131,4 @@ def test_frozen_particles_are_named(full):
     """Where particles have less than 0.01 of the grid's K: at Ra 2500, and at 5000 if it were so there."""
     thawed, more = (changed(full, "means", "ke_field", ke, method="spam", ra=ra)
                     for ke, ra in ((1.0, 2500.0), (1e-7, 5000.0)))
-    assert [texts(ALL["main"](known)).count("at rest, started") for known in (thawed, full, more)] == [0, 1, 2]
+    assert [texts(ALL["main"](known)).count("at rest, st") for known in (thawed, full, more)] == [0, 1, 2]
