@@ -1,6 +1,4 @@
 """Your own pair term: Rusanov's dissipation along edges calms a shock tube on lattice points."""
-from typing import NamedTuple
-
 from examples import picture, sized
 from particles.pairs import pair_term
 from studies.build import ready
@@ -8,13 +6,10 @@ from studies.build.fixed import with_term
 from studies.front import compare
 
 
-class Rusanov(NamedTuple):
+@pair_term(4, "c")
+def Rusanov(term, a, b, ab):
     """Flux over an edge: c |S|/2 times the difference of mass, momentum and energy between its ends."""
-    c: float
-
-
-@pair_term(Rusanov, 4)
-def _(term, a, b, ab):      # points have rho, vx, vy, T, P, eps (energy per volume); (ab.sx, ab.sy) = S/2
+    # points have rho, vx, vy, T, P, eps (energy per volume); (ab.sx, ab.sy) = S/2
     f = term.c*(ab.sx*ab.sx + ab.sy*ab.sy)**0.5
     return f*(b.rho - a.rho), f*(b.rho*b.vx - a.rho*a.vx), f*(b.rho*b.vy - a.rho*a.vy), f*(b.eps - a.eps)
 

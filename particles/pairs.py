@@ -1,4 +1,5 @@
 """The only pair loops: `weigh` finds pairs in range and their weights, `sweep` sums terms over them."""
+from collections import namedtuple
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
@@ -135,15 +136,27 @@ def zero(term):
     """The empty sum of a term: a tuple of zeros."""
 
 
-def pair_term(kind: type, columns: int) -> Callable:
-    """Decorator that makes a formula the `rate` of a type of term, whose sums have so many columns.
-
-    rate(term, a, b, ab) is the gain of `a`. On edges, ab is an `Edge`, points have rho, vx, vy, T, P, eps,
-    eta, k, and ux, uy, Td as friction and heat see them; columns are mass, momentum (2), energy.
-    """
+def register_term(kind: type, columns: int, formula: Callable) -> type:
+    """Make a formula the `rate` of a type of term, whose sums have so many columns."""
     empty = (0.0,)*columns
     zero.of(kind)(lambda term: empty)
-    return rate.of(kind)
+    rate.of(kind)(formula)
+    return kind
+
+
+def pair_term(columns: int, *names: str, **defaults: Any) -> Any:
+    """Decorator that turns a formula(term, a, b, ab) into a term, a type with these numbers.
+
+    The formula gives the gain of `a`, a tuple of so many columns. On edges, ab is an `Edge`, points have rho,
+    vx, vy, T, P, eps, eta, k, and ux, uy, Td as friction and heat see them; columns are mass, momentum (2),
+    energy.
+    """
+    def term(formula: Callable) -> Any:
+        usual: Any = {"defaults": defaults.values(), "module": formula.__module__}
+        kind: Any = namedtuple(formula.__name__, [*names, *defaults], **usual)  # type: ignore[misc]
+        kind.__doc__ = formula.__doc__
+        return register_term(kind, columns, formula)
+    return term
 
 
 def add(one: tuple, other: tuple) -> Any:

@@ -2,23 +2,10 @@
 
 Symbols are those of the papers: a, b are the two particles, (ab.wx, ab.wy) = grad_a m w(r_ab).
 """
-from typing import NamedTuple
-
 import numpy as np
 
 from continuum.jit import formula, generic
 from particles.pairs import pair_term
-
-
-class Gradients(NamedTuple):
-    """Gradients of v and T: sum_b {v_b - v_a, T_b - T_a} grad_a m w/rho_ab
-
-    with the geometric mean density rho_ab = sqrt(rho_a rho_b)    [KHP95, Sec. II].
-    """
-
-
-class ArithmeticGradients(NamedTuple):
-    """As `Gradients`, with the arithmetic mean rho_ab = (rho_a + rho_b)/2, the other choice of KHP95."""
 
 
 @generic
@@ -26,28 +13,24 @@ def density_factor(term, rho):
     """Factor s of a record, from which the loop computes 1/rho_ab at little cost."""
 
 
-density_factor.of(Gradients)(lambda term, rho: 1/np.sqrt(rho))
-density_factor.of(ArithmeticGradients)(lambda term, rho: rho)
+@pair_term(8)
+def Gradients(term, a, b, ab):
+    """Gradients of v and T: sum_b {v_b - v_a, T_b - T_a} grad_a m w/rho_ab
 
-
-class Fluxes(NamedTuple):
-    """Acceleration and heating by P/rho^2 and Q/rho^2    [KHP95, Sec. II]
-
-    a_a = -sum_b [(P/rho^2)_a + (P/rho^2)_b].grad w,
-    de_a = -sum_b (1/2) [(P/rho^2)_a + (P/rho^2)_b] : (v_b - v_a) grad w - sum_b [(Q/rho^2)_a +
-    (Q/rho^2)_b].grad w
+    with the geometric mean density rho_ab = sqrt(rho_a rho_b)    [KHP95, Sec. II].
     """
-
-
-@pair_term(Gradients, 8)
-def _(term, a, b, ab):
     return _differences(a, b, a.s*b.s*ab.wx, a.s*b.s*ab.wy)
 
 
-@pair_term(ArithmeticGradients, 8)
-def _(term, a, b, ab):
+@pair_term(8)
+def ArithmeticGradients(term, a, b, ab):
+    """As `Gradients`, with the arithmetic mean rho_ab = (rho_a + rho_b)/2, the other choice of KHP95."""
     f = 2/(a.s + b.s)
     return _differences(a, b, f*ab.wx, f*ab.wy)
+
+
+density_factor.of(Gradients)(lambda term, rho: 1/np.sqrt(rho))
+density_factor.of(ArithmeticGradients)(lambda term, rho: rho)
 
 
 @formula
@@ -57,8 +40,14 @@ def _differences(a, b, x, y):
     return u*x, v*x, T*x, s*x, u*y, v*y, T*y, s*y
 
 
-@pair_term(Fluxes, 5)
-def _(term, a, b, ab):
+@pair_term(5)
+def Fluxes(term, a, b, ab):
+    """Acceleration and heating by P/rho^2 and Q/rho^2    [KHP95, Sec. II]
+
+    a_a = -sum_b [(P/rho^2)_a + (P/rho^2)_b].grad w,
+    de_a = -sum_b (1/2) [(P/rho^2)_a + (P/rho^2)_b] : (v_b - v_a) grad w - sum_b [(Q/rho^2)_a +
+    (Q/rho^2)_b].grad w
+    """
     # four sums of the same form fill a vector register; the fourth is not used
     fx = (a.xx + b.xx)*ab.wx + (a.yx + b.yx)*ab.wy
     fy = (a.xy + b.xy)*ab.wx + (a.yy + b.yy)*ab.wy
@@ -67,16 +56,13 @@ def _(term, a, b, ab):
     return -fx, -fy, -q, -v, -0.5*((b.vx - a.vx)*fx + (b.vy - a.vy)*fy)
 
 
-class DirectFluxes(NamedTuple):
+@pair_term(3)
+def DirectFluxes(term, a, b, ab):
     """Pressure as in `Fluxes`; viscosity and conduction from differences along the pair:
 
     a_a = sum_b [(eta_a + eta_b)/(rho_a rho_b)] (v_a - v_b) F m, de_a = half of the work of this force
     + sum_b [(k_a + k_b)/(rho_a rho_b)] (T_a - T_b) F m, F = w'/r [Morris, Brookshaw].
     """
-
-
-@pair_term(DirectFluxes, 3)
-def _(term, a, b, ab):
     x, y, u, v = a.x - b.x, a.y - b.y, a.vx - b.vx, a.vy - b.vy
     # two particles in one place exert no force on each other
     F = (x*ab.wx + y*ab.wy)/max(x*x + y*y, 1e-300)*a.irho*b.irho

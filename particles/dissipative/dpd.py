@@ -7,7 +7,7 @@ state (3 d, n) is x, v and the force at the end of the last step, which integrat
 """
 from dataclasses import dataclass
 from math import inf
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -196,15 +196,9 @@ class Forces(Sums):
 # --- quantities of a run, from its pair sums and the state ---------------------------------------
 
 
-class Static(NamedTuple):
-    """Sums of the repulsion F: components, Laplacian of its potential, F.r."""
-    d: int
-    a: float
-
-
-@pair_term(Static, 5)
-def _(term, a, b, ab):
-    """U'' + (d - 1) U'/r = a - (d - 1) f"""
+@pair_term(5, "d", "a")
+def Static(term, a, b, ab):
+    """Sums of the repulsion F: components, Laplacian U'' + (d - 1) U'/r of its potential, F.r."""
     fx, fy, fz = ab.f*ab.dx, ab.f*ab.dy, ab.f*ab.dz
     return fx, fy, fz, term.a - (term.d - 1)*ab.f, fx*ab.dx + fy*ab.dy + fz*ab.dz
 

@@ -48,13 +48,9 @@ class Apart(NamedTuple):
 pair_at.of(Near)(lambda pairs, k: Apart(pairs.dx[k], pairs.dy[k], pairs.dz[k], pairs.f[k], pairs.g[k]))
 
 
-class Force(NamedTuple):
-    """The whole force of a pair."""
-
-
-@pair_term(Force, 3)
-def _(term, a, b, ab):
-    """[f - g r.v_ab] r"""
+@pair_term(3)
+def Force(term, a, b, ab):
+    """The whole force of a pair, [f - g r.v_ab] r."""
     c = ab.f - ab.g*(ab.dx*(a.vx - b.vx) + ab.dy*(a.vy - b.vy) + ab.dz*(a.vz - b.vz))
     return c*ab.dx, c*ab.dy, c*ab.dz
 

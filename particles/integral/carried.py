@@ -26,14 +26,6 @@ OFFSETS = [*range(0, 80, 8), 0, 8]
 Point = np.dtype({"names": FIELDS, "formats": ["f8"]*len(FIELDS), "offsets": OFFSETS, "itemsize": 80})
 
 
-class Crossing(NamedTuple):
-    """Convection at the relative velocity r = w - v, and pressure with its work.
-
-    Mass m' = S.(r_a + r_b)/2 (rho_a + rho_b)/2 carries the mean velocity and (e_a + e_b + v_a.v_b)/2, which
-    conserves kinetic energy. The force omits the pressure of the row's own point, since edges close.
-    """
-
-
 class Fluid(NamedTuple):
     """Constants of all steps. shift : rate of drift to the triangles' centre, over the largest |grad v|."""
     eos: Any
@@ -68,8 +60,13 @@ class Bench(NamedTuple):
     left: np.ndarray
 
 
-@pair_term(Crossing, 4)
-def _(term, a, b, ab):
+@pair_term(4)
+def Crossing(term, a, b, ab):
+    """Convection at the relative velocity r = w - v, and pressure with its work.
+
+    Mass m' = S.(r_a + r_b)/2 (rho_a + rho_b)/2 carries the mean velocity and (e_a + e_b + v_a.v_b)/2, which
+    conserves kinetic energy. The force omits the pressure of the row's own point, since edges close.
+    """
     sx, sy = ab.sx, ab.sy
     mass = 0.5*(sx*(a.rx + b.rx) + sy*(a.ry + b.ry))*(a.rho + b.rho)
     P, half = b.P - a.P, 0.5*mass

@@ -4,8 +4,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from continuum.jit import generic, jit
-from particles.integral.exchange import At, Convection, Listing, Pressure, Stage, pressure_of, stages_of
-from particles.pairs import Edge, pair_term, rate, zero
+from particles.integral.exchange import At, Convection, Pressure, Stage, pressure_of, stages_of
+from particles.pairs import Edge, pair_term, rate, register_term, zero
 from particles.threads import Threads
 
 
@@ -26,18 +26,6 @@ class Powers(NamedTuple):
 class OverPairs(NamedTuple):
     """A term over edges, evaluated on pairs as edges of S_ab/2 = V_a V_b W e_ba, k = 2 V_a V_b W/r."""
     term: Any
-
-
-class Drifting(NamedTuple):
-    """Gain of the first point of a pair: mass, momentum, energy of the listed terms, and volume."""
-    motion: Any
-    exchanged: Listing
-
-
-class BracketPressure(NamedTuple):
-    """Pressures P_ab, P_ba of Eq. 49 or 50, less the static part that a point leaves out, -hydro."""
-    bracket: Any
-    eos: Any
 
 
 class Dilution(NamedTuple):
@@ -87,7 +75,7 @@ def both(bracket, eos, a, b):
 
 
 zero.of(OverPairs)(lambda term: zero(term.term))
-pair_term(Dilution, 4)(lambda term, a, b, ab: (0.0, 0.0, 0.0, 0.0))     # its stage does all
+register_term(Dilution, 4, lambda term, a, b, ab: (0.0, 0.0, 0.0, 0.0))     # its stage does all
 growth.of(LiteralDrift)(lambda motion, a, b, ab: 0.0)
 growth.of(ConvectiveDrift)(lambda motion, a, b, ab: ab.sx*b.vx + ab.sy*b.vy)
 growth.of(ConstantMassDrift)(lambda motion, a, b, ab: ab.sx*b.vx + ab.sy*b.vy - (ab.sx*a.vx + ab.sy*a.vy))
@@ -101,13 +89,15 @@ def _(term, a, b, ab):
     return rate(term.term, a, b, Edge(VV*ab.wx, VV*ab.wy, k))
 
 
-@pair_term(Drifting, 5)
-def _(term, a, b, ab):
+@pair_term(5, "motion", "exchanged")
+def Drifting(term, a, b, ab):
+    """Gain of the first point of a pair: mass, momentum, energy of the listed terms, and volume."""
     return (*rate(term.exchanged, a, b, ab), growth(term.motion, a, b, ab))
 
 
-@pair_term(BracketPressure, 4)
-def _(term, a, b, ab):
+@pair_term(4, "bracket", "eos")
+def BracketPressure(term, a, b, ab):
+    """Pressures P_ab, P_ba of Eq. 49 or 50, less the static part that a point leaves out, -hydro."""
     to_b, to_a = ab.sx*b.vx + ab.sy*b.vy, ab.sx*a.vx + ab.sy*a.vy
     P_ab, P_ba = both(term.bracket, term.eos, a, b)
     P_ab, P_ba = P_ab + b.hydro, P_ba + a.hydro

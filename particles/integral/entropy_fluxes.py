@@ -6,8 +6,6 @@ an ideal gas, and is as accurate as RR98's brackets; `MeanPressure` preserves co
 the crossed pressure in smooth flow and the mean at contacts. `Dissipation` can be added to any of them.
 {} is the mean of both points of an edge, D their difference.
 """
-from typing import Any, NamedTuple
-
 import numpy as np
 
 from continuum.fluid import IdealGas
@@ -22,37 +20,6 @@ CALM, ROUNDING = 1e-3, 1e-12    # thresholds of dissipation: part of a full jump
 STILL = CALM**(1/STEEP)
 FAINT = CALM**1.5               # s at which the share of pressure in `shock` is CALM
 LN2, MANTISSA, HALF = np.log(2), u64(52), u64((2*1023 + 1) << 51)     # mantissa's bits; exponent bias + 1/2
-
-
-class Logarithmic(NamedTuple):
-    """Mass S.{w - v} rho* brings velocity {v} and energy e* + v_a.v_b/2; `log_means`    [Chandrashekar 2013]
-
-    With q = d(-rho s)/d(rho, rho v, eps), U* = rho* (1, {v}, ..) satisfies Dq.U* = D(P/T). A volume growing
-    by S.{w} contributes -rho s - q.U = -P/T times its growth: for an edge that moves at {w} they cancel.
-    """
-    eos: Any
-
-
-class MeanPressure(NamedTuple):
-    """Mean pressure {P} on an edge, with the work S.(P_a v_b + P_b v_a)/2    [Ranocha 2018]"""
-    eos: Any
-
-
-class BlendedPressure(NamedTuple):
-    """Share w of {P}, 1 - w of the crossed P_a T_b/T_a and P_b T_a/T_b, which is `Pressure` of an ideal gas.
-
-    Where P_a = P_b the crossed pressure is too large by the share x = (DT)^2/(2 T_a T_b). With y = DP/{P} and
-    w = x^2/(x^2 + y^2), at most 5/4 |DP| is added to {P}, and nothing at a contact; w is of second order in
-    smooth flow. Both pressures conserve entropy, and so does any blend with the same w from both ends.
-    """
-    eos: Any
-
-
-class Dissipation(NamedTuple):
-    """|S|/2 R L psi T R^T Dw: of jumps in sound, entropy and shear the part psi = s^m that no linear field
-    explains, and more in shocks; of pressure also what Jameson's limited mean leaves, except where the flow
-    rotates or strains. Points need gradients, edges (dx, dy)    [Barth 1999; Jameson 1995]"""
-    eos: Any
 
 
 @formula
@@ -80,22 +47,34 @@ def log_means(eos, a, b):
 log_means.of(IdealGas)(lambda eos, a, b: (log_mean(a.rho, b.rho), eos.cv*a.T*b.T/log_mean(a.T, b.T)))
 
 
-@pair_term(Logarithmic, 4)
-def _(term, a, b, ab):
+@pair_term(4, "eos")
+def Logarithmic(term, a, b, ab):
+    """Mass S.{w - v} rho* brings velocity {v} and energy e* + v_a.v_b/2; `log_means`    [Chandrashekar 2013]
+
+    With q = d(-rho s)/d(rho, rho v, eps), U* = rho* (1, {v}, ..) satisfies Dq.U* = D(P/T). A volume growing
+    by S.{w} contributes -rho s - q.U = -P/T times its growth: for an edge that moves at {w} they cancel.
+    """
     rho, e = log_means(term.eos, a, b)
     m = rho*(ab.sx*(a.rx + b.rx) + ab.sy*(a.ry + b.ry))
     return m, 0.5*m*(a.vx + b.vx), 0.5*m*(a.vy + b.vy), m*(e + 0.5*(a.vx*b.vx + a.vy*b.vy))
 
 
-@pair_term(MeanPressure, 4)
-def _(term, a, b, ab):
+@pair_term(4, "eos")
+def MeanPressure(term, a, b, ab):
+    """Mean pressure {P} on an edge, with the work S.(P_a v_b + P_b v_a)/2    [Ranocha 2018]"""
     P_a, P_b = pressure_of(term.eos, a.rho, a.T), pressure_of(term.eos, b.rho, b.T) + b.hydro
     P = P_a + P_b - 2*a.P
     return 0.0, -ab.sx*P, -ab.sy*P, -P_a*(ab.sx*b.vx + ab.sy*b.vy) - P_b*(ab.sx*a.vx + ab.sy*a.vy)
 
 
-@pair_term(BlendedPressure, 4)
-def _(term, a, b, ab):
+@pair_term(4, "eos")
+def BlendedPressure(term, a, b, ab):
+    """Share w of {P}, 1 - w of the crossed P_a T_b/T_a and P_b T_a/T_b, which is `Pressure` of an ideal gas.
+
+    Where P_a = P_b the crossed pressure is too large by the share x = (DT)^2/(2 T_a T_b). With y = DP/{P} and
+    w = x^2/(x^2 + y^2), at most 5/4 |DP| is added to {P}, and nothing at a contact; w is of second order in
+    smooth flow. Both pressures conserve entropy, and so does any blend with the same w from both ends.
+    """
     P_a, P_b, ratio = pressure_of(term.eos, a.rho, a.T), pressure_of(term.eos, b.rho, b.T), b.T/a.T
     x, y = (b.T - a.T)**2/(2*a.T*b.T), 2*(P_b - P_a)/(P_a + P_b)
     cross = y*y/(x*x + y*y + 1e-300)
@@ -174,8 +153,11 @@ def astir(a, b, ab, P, r, by_x, by_y):
                 & calm(sx*dv - sy*du, sx*v0 - sy*u0, sx*v1 - sy*u1, speed))
 
 
-@pair_term(Dissipation, 4)
-def _(term, a, b, ab):
+@pair_term(4, "eos")
+def Dissipation(term, a, b, ab):
+    """|S|/2 R L psi T R^T Dw: of jumps in sound, entropy and shear the part psi = s^m that no linear field
+    explains, and more in shocks; of pressure also what Jameson's limited mean leaves, except where the flow
+    rotates or strains. Points need gradients, edges (dx, dy)    [Barth 1999; Jameson 1995]"""
     P, r, by_x, by_y = jumps(a, b, ab)
     if astir(a, b, ab, P, r, by_x, by_y):
         return waves(term.eos, a, b, ab, P, r, by_x, by_y)

@@ -15,32 +15,9 @@ from particles.pairs import add, pair_term, rate, sweep, zero
 from particles.threads import Threads
 
 
-class Convection(NamedTuple):
+@pair_term(4)
+def Convection(term, a, b, ab):
     """Convection, q_a v_b + q_b v_a for q = rho, rho v and eps."""
-
-
-class Pressure(NamedTuple):
-    """Crossed pressures P_ab = P(rho_a, T_b) and P_ba, with a hydrostatic part for images. The force is that
-    of P_ab + P_ba - 2 P_a; field P is the point's own pressure, or zero if unset: see `fixed.OwnPressure`."""
-    eos: Any
-
-
-class Friction(NamedTuple):
-    """Friction along the edge and its work, for a share of the viscosity    [Eq. 51, zeta = 0, d = 2]"""
-    share: float = 1.0
-
-
-class Conduction(NamedTuple):
-    """Heat conduction along the edge, for a share of the conductivity: ours, beside Eq. 51."""
-    share: float = 1.0
-
-
-#: friction of Eq. 51 and heat; heat first costs 15 % more with terms that divide, see `Listing`
-PRINTED = (Friction(), Conduction())
-
-
-@pair_term(Convection, 4)
-def _(term, a, b, ab):
     to_b, to_a = ab.sx*b.vx + ab.sy*b.vy, ab.sx*a.vx + ab.sy*a.vy       # S.v/2
     from_a, from_b = a.rho*to_b, b.rho*to_a
     return -from_a - from_b, -from_a*a.vx - from_b*b.vx, -from_a*a.vy - from_b*b.vy, -a.eps*to_b - b.eps*to_a
@@ -51,23 +28,31 @@ def pressure_of(eos, rho, T):
     return pressure(eos, rho, energy(eos, rho, T))
 
 
-@pair_term(Pressure, 4)
-def _(term, a, b, ab):
+@pair_term(4, "eos")
+def Pressure(term, a, b, ab):
+    """Crossed pressures P_ab = P(rho_a, T_b) and P_ba, with a hydrostatic part for images. The force is that
+    of P_ab + P_ba - 2 P_a; field P is the point's own pressure, or zero if unset: see `fixed.OwnPressure`."""
     to_b, to_a = ab.sx*b.vx + ab.sy*b.vy, ab.sx*a.vx + ab.sy*a.vy
     P_ab, P_ba = pressure_of(term.eos, a.rho, b.T) + b.hydro, pressure_of(term.eos, b.rho, a.T)
     P = P_ab + P_ba - 2*a.P
     return 0.0, -ab.sx*P, -ab.sy*P, -P_ab*to_a - P_ba*to_b
 
 
-@pair_term(Friction, 4)
-def _(term, a, b, ab):
+@pair_term(4, share=1.0)
+def Friction(term, a, b, ab):
+    """Friction along the edge and its work, for a share of the viscosity    [Eq. 51, zeta = 0, d = 2]"""
     f, du, dv = 0.5*term.share*(a.eta + b.eta)*ab.k, b.ux - a.ux, b.uy - a.uy
     return 0.0, f*du, f*dv, 0.5*f*(du*(a.ux + b.ux) + dv*(a.uy + b.uy))
 
 
-@pair_term(Conduction, 4)
-def _(term, a, b, ab):
+@pair_term(4, share=1.0)
+def Conduction(term, a, b, ab):
+    """Heat conduction along the edge, for a share of the conductivity: ours, beside Eq. 51."""
     return 0.0, 0.0, 0.0, 0.5*term.share*(a.k + b.k)*ab.k*(b.Td - a.Td)
+
+
+#: friction of Eq. 51 and heat; heat first costs 15 % more with terms that divide, see `Listing`
+PRINTED = (Friction(), Conduction())
 
 
 class Listing(NamedTuple):

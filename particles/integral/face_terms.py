@@ -1,11 +1,8 @@
 """Compiled terms and loops of `closed_faces`: exchange through faces between moving points, in 2D."""
-from typing import NamedTuple
-
 import numpy as np
 
 from continuum.fluid import conductivity, pressure, sound_speed, temperature, viscosity
 from continuum.jit import jit
-from particles.integral.exchange import Listing
 from particles.pairs import pair_term, rate
 
 #: convection, pressure read vx .. theta, g = grad P'; friction, heat ux, uy, Td; `Mending` F
@@ -13,26 +10,16 @@ Point = np.dtype([(name, "f8") for name in ("vx", "vy", "P", "rho", "e", "per_c"
                                             "theta", "gx", "gy", "ux", "uy", "Td", "eta", "k", "Fx", "Fy")])
 
 
-class FaceDifferences(NamedTuple):
+@pair_term(6)
+def FaceDifferences(term, a, b, ab):
     """V grad of v and P by differences: d_x u, d_y u, d_x v, d_y v, d_x P, d_y P."""
-
-
-class FaceExchange(NamedTuple):
-    """Gains through a face: mass, momentum, energy, volume that flows, volume that points pass on."""
-    follow: float
-    spread: float
-    smooth: float
-    transport: Listing
-
-
-@pair_term(FaceDifferences, 6)
-def _(term, a, b, ab):
     du, dv, dP = b.ux - a.ux, b.uy - a.uy, b.P - a.P
     return ab.sx*du, ab.sy*du, ab.sx*dv, ab.sy*dv, ab.sx*dP, ab.sy*dP
 
 
-@pair_term(FaceExchange, 6)
-def _(term, a, b, ab):
+@pair_term(6, "follow", "spread", "smooth", "transport")
+def FaceExchange(term, a, b, ab):
+    """Gains through a face: mass, momentum, energy, volume that flows, volume that points pass on."""
     sx, sy, k = ab.sx, ab.sy, ab.k
     to_a, to_b = sx*a.vx + sy*a.vy, sx*b.vx + sy*b.vy
     left = sx*(a.shift_x + b.shift_x) + sy*(a.shift_y + b.shift_y) + term.follow*k*(b.theta - a.theta)

@@ -8,8 +8,6 @@ With x_ij = x_j - x_i, F = -w'/r of a weight w and volumes V:
 phi, psi follow from sum_j S_ij = 0 and 1/2 sum_j S_ij x_ij = V_i 1: symmetric positive equations, solved by
 conjugate gradients that start from the last solution.
 """
-from typing import NamedTuple
-
 import numpy as np
 
 from continuum.jit import jit
@@ -23,12 +21,9 @@ Metric = np.dtype([(name, "f8") for name in ("V", "xx", "xy", "yy", "s")])
 Potential = np.dtype([(name, "f8") for name in POTENTIALS])
 
 
-class Closing(NamedTuple):
+@pair_term(6)
+def Closing(term, a, b, ab):
     """Closure, with a minus, and moments of k [phi_j - phi_i + (psi_i + psi_j).x_ij], for S_x and S_y."""
-
-
-@pair_term(Closing, 6)
-def _(term, a, b, ab):
     gx = ab.k*(b.phi_x - a.phi_x + (a.psi_xx + b.psi_xx)*ab.dx + (a.psi_xy + b.psi_xy)*ab.dy)
     gy = ab.k*(b.phi_y - a.phi_y + (a.psi_yx + b.psi_yx)*ab.dx + (a.psi_yy + b.psi_yy)*ab.dy)
     return -gx, gx*ab.dx, gx*ab.dy, -gy, gy*ab.dx, gy*ab.dy

@@ -6,8 +6,6 @@ instructions compute several of these at a time. Sums take differences, sum_j S 
 conservation of edges. Results equal `layer` to round-off. Arrays are passed as plain tuples (a NamedTuple
 costs a microsecond each); rows are summed in blocks whose sums stay in the fastest cache.
 """
-from typing import NamedTuple
-
 import numpy as np
 
 from continuum.fluid import IdealGas, temperature
@@ -21,16 +19,9 @@ Lack = np.dtype([("Fx", "f8"), ("Fy", "f8")])
 ROWS = 32           # per block
 
 
-class ProductSums(NamedTuple):
+@pair_term(20)
+def ProductSums(term, a, b, ab):
     """Sums of S_x, S_y and k times differences of fields; S w and k T only fill up vectors."""
-
-
-class LackSums(NamedTuple):
-    """Sum of S.(F_b - F_a)/2, the correction of heating."""
-
-
-@pair_term(ProductSums, 20)
-def _(term, a, b, ab):
     x, y, k = ab.sx, ab.sy, ab.k
     rho, mx, my, eps = b.rho - a.rho, b.mx - a.mx, b.my - a.my, b.eps - a.eps
     T, u, v, w = b.T - a.T, b.u - a.u, b.v - a.v, b.w - a.w
@@ -38,8 +29,9 @@ def _(term, a, b, ab):
             k*u, k*v, k*w)
 
 
-@pair_term(LackSums, 1)
-def _(term, a, b, ab):
+@pair_term(1)
+def LackSums(term, a, b, ab):
+    """Sum of S.(F_b - F_a)/2, the correction of heating."""
     return (ab.sx*(b.Fx - a.Fx) + ab.sy*(b.Fy - a.Fy),)
 
 

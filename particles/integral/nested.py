@@ -8,7 +8,7 @@ from continuum.jit import jit
 from particles.integral.dih import check_share
 from particles.integral.exchange import At, Conduction, Friction, Stage, stages_of
 from particles.integral.transposed_stress import Mending
-from particles.pairs import pair_term, sweep
+from particles.pairs import pair_term, register_term, sweep
 from particles.threads import Threads
 
 #: stress, minus the heat current Q, and the velocity that friction sees
@@ -20,25 +20,19 @@ class NestedTransport(NamedTuple):
     share: float
 
 
-class Slopes(NamedTuple):
+register_term(NestedTransport, 4, lambda term, a, b, ab: (0.0, 0.0, 0.0, 0.0))      # its stage does all
+
+
+@pair_term(6)
+def Slopes(term, a, b, ab):
     """V times gradients of v and T, by differences: d_x u, d_y u, d_x v, d_y v, d_x T, d_y T."""
-
-
-class Currents(NamedTuple):
-    """Exchange of momentum and energy by stress and heat current of the points    [Eqs 37, 38]"""
-
-
-pair_term(NestedTransport, 4)(lambda term, a, b, ab: (0.0, 0.0, 0.0, 0.0))      # its stage does all
-
-
-@pair_term(Slopes, 6)
-def _(term, a, b, ab):
     du, dv, dT = b.ux - a.ux, b.uy - a.uy, b.Td - a.Td
     return ab.sx*du, ab.sy*du, ab.sx*dv, ab.sy*dv, ab.sx*dT, ab.sy*dT
 
 
-@pair_term(Currents, 3)
-def _(term, a, b, ab):
+@pair_term(3)
+def Currents(term, a, b, ab):
+    """Exchange of momentum and energy by stress and heat current of the points    [Eqs 37, 38]"""
     ax, ay = ab.sx*a.xx + ab.sy*a.yx, ab.sx*a.xy + ab.sy*a.yy
     bx, by = ab.sx*b.xx + ab.sy*b.yx, ab.sx*b.xy + ab.sy*b.yy
     return ax + bx, ay + by, bx*a.ux + by*a.uy + ax*b.ux + ay*b.uy + ab.sx*(a.qx + b.qx) + ab.sy*(a.qy + b.qy)

@@ -4,7 +4,7 @@ A short enough step with Rusanov's flux keeps both positive [Perthame & Shu 1996
 a step with listed terms does not, edges leave out a part of their exchange beyond Rusanov's flux, so that no
 edge takes more than its share from either point. Points are records of `lanes`.
 """
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -26,38 +26,22 @@ LEAST = 1e-6                    # part of a step below which it is not halved ag
 PART, OLD = 0.5, (0.0, 0.0, 2/3, 0.0)
 
 
-class Slopes(NamedTuple):
+@pair_term(8)
+def Slopes(term, a, b, ab):
     """V times the gradients of v, rho and P by differences, d_x u, d_y u, d_x v, d_y v, d_x rho, ..."""
-
-
-class Sound(NamedTuple):
-    """Speed of the fastest wave times area, |S|/2 (|(v - {w}).n| + c)."""
-
-
-class Excess(NamedTuple):
-    """Exchange by listed terms minus Rusanov's flux."""
-    terms: Listing
-
-
-class Limited(NamedTuple):
-    """Minus the part of `excess` that an edge leaves out    [Zalesak 1979; Guermond & Popov 2017]"""
-    excess: Excess
-    eos: Any
-
-
-@pair_term(Slopes, 8)
-def _(term, a, b, ab):
     x, y, rho, u, v, P = ab.sx, ab.sy, b.rho - a.rho, b.vx - a.vx, b.vy - a.vy, b.P + b.hydro - a.P
     return x*u, y*u, x*v, y*v, x*rho, y*rho, x*P, y*P
 
 
-@pair_term(Sound, 1)
-def _(term, a, b, ab):
+@pair_term(1)
+def Sound(term, a, b, ab):
+    """Speed of the fastest wave times area, |S|/2 (|(v - {w}).n| + c)."""
     return (fastest(a, b, ab),)
 
 
-@pair_term(Excess, 4)
-def _(term, a, b, ab):
+@pair_term(4, "terms")
+def Excess(term, a, b, ab):
+    """Exchange by listed terms minus Rusanov's flux."""
     most, P, (to_a, to_b) = fastest(a, b, ab), b.P - a.P + b.hydro, against(a, b, ab)
     one, other = to_a + most, to_b - most
     work = (a.P + b.hydro)*(ab.sx*a.vx + ab.sy*a.vy) + b.P*(ab.sx*b.vx + ab.sy*b.vy)
@@ -84,8 +68,9 @@ def share_of(eos, a, rho, px, py, eps):
     """`share` for the type of the equation of state."""
 
 
-@pair_term(Limited, 4)
-def _(term, a, b, ab):
+@pair_term(4, "excess", "eos")
+def Limited(term, a, b, ab):
+    """Minus the part of `excess` that an edge leaves out    [Zalesak 1979; Guermond & Popov 2017]"""
     m, px, py, e = rate(term.excess, a, b, ab)
     less = min(share_of(term.eos, a, a.room*m, a.room*px, a.room*py, a.room*e),
                share_of(term.eos, b, -b.room*m, -b.room*px, -b.room*py, -b.room*e)) - 1

@@ -4,7 +4,7 @@ Held points (`bodies`) keep their velocity and temperature; their density evolve
 pressure patterns that gradients do not see; a filter of the density, chi of 0.05 a^2 c^2/nu, removes these.
 """
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -18,13 +18,9 @@ from particles.pairs import Stored, pair_term, sweep
 from particles.threads import Threads
 
 
-class Filter(NamedTuple):
+@pair_term(4, "chi")
+def Filter(term, a, b, ab):
     """Mass chi k_ab (rho_a - rho_b) goes from a to b, with their mean velocity and internal energy."""
-    chi: float
-
-
-@pair_term(Filter, 4)
-def _(term, a, b, ab):
     mass = term.chi*ab.k*(b.rho - a.rho)
     inner = a.eps/a.rho + b.eps/b.rho - 0.5*((a.vx - b.vx)**2 + (a.vy - b.vy)**2)
     return mass, 0.5*mass*(a.vx + b.vx), 0.5*mass*(a.vy + b.vy), 0.5*mass*inner
@@ -33,7 +29,7 @@ def _(term, a, b, ab):
 class Filtering(Stage):
     """Adds the exchange by a `Filter`, over edges of its own."""
 
-    def __init__(self, term: Filter, edges: Stored, n: int, threads: Threads):
+    def __init__(self, term: Any, edges: Stored, n: int, threads: Threads):
         self.term, self.edges, self.n, self.threads, self.gain = term, edges, n, threads, np.empty((n, 4))
 
     def add(self, at: At, total: np.ndarray) -> None:

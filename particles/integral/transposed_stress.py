@@ -9,7 +9,7 @@ This divergence is zero where eta is constant; that of the work F = tau.v is not
 rotation heats. `Mending` adds F, and tau as well where the law makes eta vary.
 """
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -22,37 +22,27 @@ from particles.threads import Threads
 Tau = np.dtype([(name, "f8") for name in ("xx", "xy", "yx", "yy")])
 
 
-class Mending(NamedTuple):
+@pair_term(4, share=1.0)
+def Mending(term, a, b, ab):
     """Energy S.(F_a + F_b)/2; where viscosity varies, momentum S.(tau_a + tau_b)/2 as well. Of a share."""
-    share: float = 1.0
-
-
-class Differences(NamedTuple):
-    """V times grad v, by differences: d_x u, d_y u, d_x v, d_y v."""
-
-
-class Transposed(NamedTuple):
-    """Momentum S.(tau_a + tau_b)/2."""
-
-
-#: conduction, and friction along edges with the correction to a fluid's heating and force
-MENDED = (Conduction(), Mending(), Friction())
-
-
-@pair_term(Mending, 4)
-def _(term, a, b, ab):
     return 0.0, 0.0, 0.0, ab.sx*(a.Fx + b.Fx) + ab.sy*(a.Fy + b.Fy)
 
 
-@pair_term(Differences, 4)
-def _(term, a, b, ab):
+@pair_term(4)
+def Differences(term, a, b, ab):
+    """V times grad v, by differences: d_x u, d_y u, d_x v, d_y v."""
     du, dv = b.ux - a.ux, b.uy - a.uy
     return ab.sx*du, ab.sy*du, ab.sx*dv, ab.sy*dv
 
 
-@pair_term(Transposed, 2)
-def _(term, a, b, ab):
+@pair_term(2)
+def Transposed(term, a, b, ab):
+    """Momentum S.(tau_a + tau_b)/2."""
     return ab.sx*(a.xx + b.xx) + ab.sy*(a.yx + b.yx), ab.sx*(a.xy + b.xy) + ab.sy*(a.yy + b.yy)
+
+
+#: conduction, and friction along edges with the correction to a fluid's heating and force
+MENDED = (Conduction(), Mending(), Friction())
 
 
 class Heating(Stage):
@@ -91,8 +81,8 @@ class HeatingAndForce(Heating):
         total[:, 1:3] += force
 
 
-@stages_of.register
-def _(term: Mending, law: Any, n: int, threads: Threads, *more: Any) -> tuple[Stage, ...]:
+@stages_of.register(Mending)
+def _(term: Any, law: Any, n: int, threads: Threads, *more: Any) -> tuple[Stage, ...]:
     kind = Heating if constant_viscosity(law) else HeatingAndForce
     return (kind(term.share, n, threads, *more),)
 

@@ -20,17 +20,13 @@ import numpy as np
 
 from continuum.fluid import conductivity, viscosity
 from continuum.jit import formula, generic, jit
-from particles.pairs import pair_term, sweep
+from particles.pairs import pair_term, register_term, sweep
 from particles.smooth.sums import Direct
 from particles.threads import Threads
 
 #: det M/(tr M)^2 that neighbours in a line have by round-off
 FLAT = 1e-12
 FAR = 2**62
-
-
-class Moments(NamedTuple):
-    """M_i (xx, xy, yy), and uncorrected gradients sum_j V_j (f_j - f_i) grad_i w of f = vx, vy, T."""
 
 
 class SumB(NamedTuple):
@@ -71,15 +67,16 @@ def _(term, own, other):
     return mean, mean
 
 
-@pair_term(Moments, 9)
-def _(term, a, b, ab):
+@pair_term(9)
+def Moments(term, a, b, ab):
+    """M_i (xx, xy, yy), and uncorrected gradients sum_j V_j (f_j - f_i) grad_i w of f = vx, vy, T."""
     x, y, u, v, T = b.x - a.x, b.y - a.y, b.vx - a.vx, b.vy - a.vy, b.T - a.T
     wx, wy = b.irho*ab.wx, b.irho*ab.wy
     return x*wx, x*wy, y*wy, u*wx, u*wy, v*wx, v*wy, T*wx, T*wy
 
 
-@pair_term(SumB, 3)
-def _(term, a, b, ab):
+def push(term, a, b, ab):
+    """Acceleration and heating of a."""
     x, y, u, v = a.x - b.x, a.y - b.y, a.vx - b.vx, a.vy - b.vy
     f = a.irho*b.irho
     A, C = areas(term, turned(a, f*ab.wx, f*ab.wy), turned(b, f*ab.wx, f*ab.wy))
@@ -90,6 +87,9 @@ def _(term, a, b, ab):
     fy = drag*v + Sx*(a.xy + b.xy) + Sy*(a.yy + b.yy)
     heat = a.P*(A[0]*u + A[1]*v) - 0.5*(fx*u + fy*v) + (a.k + b.k)*F*(a.T - b.T)
     return fx - a.P*A[0] - b.P*C[0], fy - a.P*A[1] - b.P*C[1], heat
+
+
+register_term(SumB, 3, push)
 
 
 @formula

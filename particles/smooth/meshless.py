@@ -13,7 +13,7 @@ from typing import Any, ClassVar, NamedTuple
 import numpy as np
 
 from continuum.jit import formula, generic, jit
-from particles.pairs import pair_term, sweep
+from particles.pairs import pair_term, register_term, sweep
 from particles.smooth.corrected import Corrected
 from particles.smooth.sums import sound
 from particles.threads import Threads
@@ -26,19 +26,11 @@ class Given(NamedTuple):
     m: float
 
 
-class Moments(Given):
-    """m0, m1, m2 of W without the particle itself, and the parts of their gradients in grad W [Eqs 12-15]"""
-
-
 class Reproducing(Given):
     """CRKSPH: W^R_ij = A_i (1 + B_i.x_ij) W_ij, x_ij = x_i - x_j, is exact on linear fields    [Eqs 12-15]
 
     Records hold p = A, q = A B, g = grad p + q, q_ab = d_b q_a. A pair's work is shared as P_i : P_j.
     """
-
-
-class Differences(Given):
-    """sum W x x, and sum W (f_j - f_i) x of f = vx, vy, P    [Hopkins 2015, Sec. 2]"""
 
 
 class Meshless(Given):
@@ -62,15 +54,17 @@ def pressed(term, a, b, x, y, Sx, Sy):
     """P*, and the heating of a by P* over the area S/2m."""
 
 
-@pair_term(Moments, 12)
-def _(term, a, b, ab):
+@pair_term(12, "weight", "m")
+def Moments(term, a, b, ab):
+    """m0, m1, m2 of W without the particle itself, and the parts of their gradients in grad W [Eqs 12-15]"""
     x, y, wx, wy = a.x - b.x, a.y - b.y, b.irho*ab.wx, b.irho*ab.wy
     w = b.irho*density(term, x, y)
     return w, x*w, y*w, x*x*w, x*y*w, y*y*w, wx, wy, x*x*wx, x*x*wy, y*y*wx, y*y*wy
 
 
-@pair_term(Differences, 9)
-def _(term, a, b, ab):
+@pair_term(9, "weight", "m")
+def Differences(term, a, b, ab):
+    """sum W x x, and sum W (f_j - f_i) x of f = vx, vy, P    [Hopkins 2015, Sec. 2]"""
     x, y, u, v, P = b.x - a.x, b.y - a.y, b.vx - a.vx, b.vy - a.vy, b.P - a.P
     w = density(term, x, y)
     return x*x*w, x*y*w, y*y*w, u*x*w, u*y*w, v*x*w, v*y*w, P*x*w, P*y*w
@@ -155,8 +149,8 @@ def push(term, a, b, ab):
     return fx - 2*P*Sx, fy - 2*P*Sy, work + 0.5*(fx*u + fy*v) - (a.k + b.k)*F*(b.T - a.T)
 
 
-pair_term(Reproducing, 3)(push)
-pair_term(Meshless, 3)(push)
+register_term(Reproducing, 3, push)
+register_term(Meshless, 3, push)
 
 
 class OverFaces(Corrected):

@@ -6,7 +6,7 @@ replaces P_i + P_j in a pair that approaches at speed u > 0; rho and c are means
 left out: it serves densities by continuity, which here are summed. The paper has no heat; here each particle
 gets half of a pair's work, as in `Direct`, whose friction and heat are used, for constant viscosity.
 """
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -14,12 +14,9 @@ from particles.pairs import pair_term
 from particles.smooth.sums import Direct, sound
 
 
-class LowDissipation(NamedTuple):
+@pair_term(3)
+def LowDissipation(term, a, b, ab):
     """As `DirectFluxes`, with P* = (P_i + P_j)/2 + beta rho c u/2."""
-
-
-@pair_term(LowDissipation, 3)
-def _(term, a, b, ab):
     x, y, u, v = a.x - b.x, a.y - b.y, a.vx - b.vx, a.vy - b.vy
     r2, f, c = max(x*x + y*y, 1e-300), a.irho*b.irho, 0.5*(a.c + b.c)
     near = max(-(x*u + y*v)/np.sqrt(r2), 0.0)

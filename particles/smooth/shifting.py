@@ -17,7 +17,7 @@ with g = V_i V_j grad W particle i gains (rho_i q_i d_i + rho_j q_j d_j).g of q 
 conserves all three; the potential energy of mass that d lifts is not counted. The continuity equation is that
 of Sun 2019, whose volumes need not fill the box.
 """
-from typing import Any, ClassVar, NamedTuple
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -33,35 +33,24 @@ from particles.weights import value_and_slope
 R, POWER, FASTEST, DIFFUSION = 0.2, 4, 0.5, 0.1
 
 
-class Uneven(NamedTuple):
+@pair_term(7, "weight")
+def Uneven(term, a, b, ab):
     """sum V (1 + R (W/W(a))^4) grad w, sum V (x_j - x_i) grad w, sum V (rho_j - rho_i) grad w."""
-    weight: Any
-
-
-class Slopes(NamedTuple):
-    """sum V_b {v_b - v_a, T_b - T_a} grad w, in the columns of `Gradients`."""
-
-
-class Shifting(NamedTuple):
-    """Acceleration, heating, d rho/dt, zero, d ln m/dt; half : h of the papers, half of the range."""
-    half: float
-
-
-@pair_term(Uneven, 7)
-def _(term, a, b, ab):
     x, y, wx, wy, rho = b.x - a.x, b.y - a.y, b.V*ab.wx, b.V*ab.wy, b.rho - a.rho
     f = 1 + R*(value_and_slope(term.weight, np.sqrt(x*x + y*y))[0]*a.per_w)**POWER
     return f*wx, f*wy, x*wx, x*wy, y*wy, rho*wx, rho*wy
 
 
-@pair_term(Slopes, 8)
-def _(term, a, b, ab):
+@pair_term(8)
+def Slopes(term, a, b, ab):
+    """sum V_b {v_b - v_a, T_b - T_a} grad w, in the columns of `Gradients`."""
     u, v, T, wx, wy = b.vx - a.vx, b.vy - a.vy, b.T - a.T, b.V*ab.wx, b.V*ab.wy
     return u*wx, v*wx, T*wx, 0.0, u*wy, v*wy, T*wy, 0.0
 
 
-@pair_term(Shifting, 6)
-def _(term, a, b, ab):
+@pair_term(6, "half")
+def Shifting(term, a, b, ab):
+    """Acceleration, heating, d rho/dt, zero, d ln m/dt; half : h of the papers, half of the range."""
     x, y, u, v, wx, wy = a.x - b.x, a.y - b.y, a.vx - b.vx, a.vy - b.vy, b.V*ab.wx, b.V*ab.wy
     # two particles in one place exert no force on each other
     F, p = (x*wx + y*wy)/max(x*x + y*y, 1e-300), (a.P + b.P)*a.irho

@@ -15,7 +15,7 @@ from particles.fields import Fields, check_numbers
 from particles.integrators import RK4
 from particles.lists import check_room
 from particles.smooth.sums import Direct, Nested
-from particles.terms import ArithmeticGradients, Gradients
+from particles.terms import Gradients
 from particles.threads import Threads
 from particles.weights import check_unit
 
@@ -47,7 +47,7 @@ class Spam:
     box: tuple[float, float]
     g: float = 0.0
     m: float = 1.0
-    gradients: Gradients | ArithmeticGradients = Gradients()  # noqa: RUF009 (immutable)
+    gradients: Any = Gradients()  # noqa: RUF009 (immutable)
     transport: type[Nested] | type[Direct] = Nested
     static: LessStatic = LessStatic(0.0, 0.0)  # noqa: RUF009
     skin: float = 0.7

@@ -19,7 +19,7 @@ gravity; here images copy it.
 As in the paper, forces by A lack v div(rho d): rates are Galilean invariant only where A is zero. Energy has
 no such term: v~ carries heat. A flux e d without mass would heat by e div d, and e, unlike v, is not small.
 """
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -32,22 +32,16 @@ from particles.threads import Threads
 COURANT = 0.25/2    # tau over a/c
 
 
-class Background(NamedTuple):
+@pair_term(2)
+def Background(term, a, b, ab):
     """sum (1/rho_a^2 + 1/rho_b^2) grad m w."""
-
-
-class Transported(NamedTuple):
-    """As `DirectFluxes`, with P~ and A."""
-
-
-@pair_term(Background, 2)
-def _(term, a, b, ab):
     f = a.irho**2 + b.irho**2
     return f*ab.wx, f*ab.wy
 
 
-@pair_term(Transported, 3)
-def _(term, a, b, ab):
+@pair_term(3)
+def Transported(term, a, b, ab):
+    """As `DirectFluxes`, with P~ and A."""
     x, y, u, v, f = a.x - b.x, a.y - b.y, a.vx - b.vx, a.vy - b.vy, a.irho**2 + b.irho**2
     # two particles in one place exert no force on each other
     F = (x*ab.wx + y*ab.wy)/max(x*x + y*y, 1e-300)*a.irho*b.irho

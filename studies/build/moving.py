@@ -127,12 +127,9 @@ def heat_over_faces(sums: FaceSums, state: np.ndarray, side: int) -> float:
     return float(np.sum(k*(a["k"] + b["k"])/2*(b["Td"] - a["Td"])))
 
 
-class PairHeat(NamedTuple):
+@pair_term(1)
+def PairHeat(term, a, b, ab):
     """Pair term: heat per time that the first point gets from the second."""
-
-
-@pair_term(PairHeat, 1)
-def _(term, a, b, ab):
     return (0.5*(a.k + b.k)*ab.k*(b.Td - a.Td),)
 
 

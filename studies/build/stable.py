@@ -97,13 +97,9 @@ BODIES = {one.name: one for one in (
 )}
 
 
-class Switched(NamedTuple):
+@pair_term(1, "term")
+def Switched(term, a, b, ab):
     """Counts edges that dissipate."""
-    term: Dissipation
-
-
-@pair_term(Switched, 1)
-def _(term, a, b, ab):
     m, px, py, e = rate(term.term, a, b, ab)
     return (1.0 if m != 0 or px != 0 or py != 0 or e != 0 else 0.0,)
 
