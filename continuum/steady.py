@@ -1,8 +1,9 @@
 """Runs of grids: rules that stop them by their samples of K, their time step, results, Newton's method."""
+from collections import namedtuple
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from math import ceil
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -18,12 +19,8 @@ class NewtonFailed(RuntimeError):
     """No steady state was found; the message gives the changes of the last steps."""
 
 
-class Series(NamedTuple):
-    """Time series: K, Nusselt number of the lower plate, mean density."""
-    t: np.ndarray
-    ke: np.ndarray
-    nu: np.ndarray
-    mass: np.ndarray
+#: Time series: K, Nusselt number of the lower plate, mean density.
+Series = namedtuple("Series", "t ke nu mass")
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -10,9 +10,10 @@ where k2 replaces the squared wave number: |m S/rho|^2 in `Nested` sums, (2 m/rh
 in `Direct` ones. S gives sound, D the stiffness of pairs. Walls and gravity are neglected. Particles off the
 lattice oscillate faster: by 1 (Wendland C2) to 21 % (B-spline) once settled, by up to 40 % at random places.
 """
+from collections import namedtuple
 from collections.abc import Callable
 from functools import cache, singledispatch
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -27,13 +28,8 @@ TRIALS = 40         # evaluations of the rates of a method without a formula
 TINY = 1e-7         # relative change of a state in a difference quotient of its rates
 
 
-class Symbols(NamedTuple):
-    """Lattice sums: density; at wave vectors S (k, 2), D (k, 2, 2), k2 of `Nested` and `Direct` sums (k,)."""
-    rho: float
-    S: np.ndarray
-    D: np.ndarray
-    nested: np.ndarray
-    direct: np.ndarray
+#: Lattice sums: density; at wave vectors S (k, 2), D (k, 2, 2), k2 of `Nested` and `Direct` sums (k,).
+Symbols = namedtuple("Symbols", "rho S D nested direct")
 
 
 @singledispatch

@@ -3,8 +3,9 @@
 The list of row i holds all points within `reach` = range + skin of it. Each pair is in two lists, so that one
 thread writes a row of a sum. Indices are unsigned: a signed one costs numba three instructions at every use.
 """
+from collections import namedtuple
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -16,27 +17,14 @@ ONE = u64(1)
 MOST = 2000     # neighbours of a point; with more, particles have collapsed
 
 
-class Lists(NamedTuple):
-    """Neighbours listed[start[i]:start[i] + length[i]] of row i."""
-    start: np.ndarray
-    length: np.ndarray
-    listed: np.ndarray
-
+#: Neighbours listed[start[i]:start[i] + length[i]] of row i.
+Lists = namedtuple("Lists", "start length listed")
 
 NO_LISTS = Lists(np.empty(0, u64), np.empty(0, u32), np.empty(0, u32))
 
 
-class Cells(NamedTuple):
-    """Points sorted into square cells. Cell c holds order[start[c]:start[c+1]]; x, y are in this order."""
-    left: float
-    bottom: float
-    side: float
-    columns: int
-    rows: int
-    start: np.ndarray
-    order: np.ndarray
-    x: np.ndarray
-    y: np.ndarray
+#: Points sorted into square cells. Cell c holds order[start[c]:start[c+1]]; x, y are in this order.
+Cells = namedtuple("Cells", "left bottom side columns rows start order x y")
 
 
 @jit

@@ -3,6 +3,7 @@
 KHP95 do not say which kinetic energy their figures show, so all three are kept: Kp of the particles, Kg of
 the smoothed field, Kfl = Kp - Kg of the fluctuations.
 """
+from collections import namedtuple
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -11,14 +12,8 @@ from continuum.fluid import conductivity, energy, stress, temperature, viscosity
 from particles.neighbours import make_lists, sort_into_cells, u32, u64
 from particles.pairs import Pairs, entries, interpolate, sweep
 
-
-class Smoothed(NamedTuple):
-    """Smoothed density, velocity, energy per mass and temperature at places, as arrays of their shape."""
-    rho: np.ndarray
-    vx: np.ndarray
-    vy: np.ndarray
-    e: np.ndarray
-    T: np.ndarray
+#: Smoothed density, velocity, energy per mass and temperature at places, as arrays of their shape.
+Smoothed = namedtuple("Smoothed", "rho vx vy e T")
 
 
 def fields_at(sums: Any, state: np.ndarray, x: np.ndarray, y: np.ndarray) -> Smoothed:

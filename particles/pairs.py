@@ -1,7 +1,7 @@
 """The only pair loops: `weigh` finds pairs in range and their weights, `sweep` sums terms over them."""
 from collections import namedtuple
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -9,43 +9,17 @@ from continuum.jit import INLINED, ORDERED, generic, jit, jit_records, overload
 from particles.neighbours import ONE, Lists, u32, u64
 from particles.weights import shape, slope
 
+#: Verlet lists, and the pairs in range among the listed points.
+#:
+#: The list of row i is listed[start[i]:start[i] + length[i]], its pairs are near, wx, wy [first[i]:first[i]
+#: + taken[i]]: near = j, (wx, wy) = grad_i m w(r_ij).
+Pairs = namedtuple("Pairs", "start length listed first taken near wx wy")
 
-class Pairs(NamedTuple):
-    """Verlet lists, and the pairs in range among the listed points.
+#: Edges of fixed points: row i has near, sx, sy, k [first[i]:first[i] + taken[i]]; (sx, sy) = S_ij/2.
+Stored = namedtuple("Stored", "first taken near sx sy k")
 
-    The list of row i is listed[start[i]:start[i] + length[i]], its pairs are near, wx, wy [first[i]:first[i]
-    + taken[i]]: near = j, (wx, wy) = grad_i m w(r_ij).
-    """
-    start: np.ndarray
-    length: np.ndarray
-    listed: np.ndarray
-    first: np.ndarray
-    taken: np.ndarray
-    near: np.ndarray
-    wx: np.ndarray
-    wy: np.ndarray
-
-
-class Stored(NamedTuple):
-    """Edges of fixed points: row i has near, sx, sy, k [first[i]:first[i] + taken[i]]; (sx, sy) = S_ij/2."""
-    first: np.ndarray
-    taken: np.ndarray
-    near: np.ndarray
-    sx: np.ndarray
-    sy: np.ndarray
-    k: np.ndarray
-
-
-class Faces(NamedTuple):
-    """Edges of moving points: as `Stored`, with (dx, dy) = x_j - x_i in addition."""
-    first: np.ndarray
-    taken: np.ndarray
-    near: np.ndarray
-    sx: np.ndarray
-    sy: np.ndarray
-    k: np.ndarray
-    dx: np.ndarray
-    dy: np.ndarray
+#: Edges of moving points: as `Stored`, with (dx, dy) = x_j - x_i in addition.
+Faces = namedtuple("Faces", "first taken near sx sy k dx dy")
 
 
 def empty_pairs(lists: Lists) -> Pairs:
@@ -61,33 +35,17 @@ def entries(pairs: Any, rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return np.repeat(rows, taken), np.repeat(first - before, taken) + np.arange(taken.sum())
 
 
-class Block(NamedTuple):
-    """Output of sums (rows, columns) for the rows from `begin` on, in place of an array of all rows."""
-    begin: int
-    sums: np.ndarray
+#: Output of sums (rows, columns) for the rows from `begin` on, in place of an array of all rows.
+Block = namedtuple("Block", "begin sums")
 
+#: Geometry of a pair, as a pair term reads it: the gradient of m w(r_ab) with respect to r_a.
+Pair = namedtuple("Pair", "wx wy")
 
-class Pair(NamedTuple):
-    """Geometry of a pair, as a pair term reads it: the gradient of m w(r_ab) with respect to r_a."""
-    wx: float
-    wy: float
+#: Geometry of an edge, as a pair term reads it: half of the area vector, S_ab/2, and conductance k.
+Edge = namedtuple("Edge", "sx sy k")
 
-
-class Edge(NamedTuple):
-    """Geometry of an edge, as a pair term reads it: half of the area vector, S_ab/2, and conductance k."""
-    sx: float
-    sy: float
-    k: float
-
-
-class Face(NamedTuple):
-    """Geometry of an `Edge` with the vector along it, (dx, dy) = x_b - x_a."""
-    sx: float
-    sy: float
-    k: float
-    dx: float
-    dy: float
-
+#: Geometry of an `Edge` with the vector along it, (dx, dy) = x_b - x_a.
+Face = namedtuple("Face", "sx sy k dx dy")
 
 @generic
 def pair_at(pairs, k):

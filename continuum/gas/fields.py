@@ -1,4 +1,5 @@
 """States of the compressible grid, and measurements: K, Nusselt numbers, rolls, interpolated values."""
+from collections import namedtuple
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, NamedTuple
@@ -11,14 +12,8 @@ from continuum.gas.ghosts import RHO, VX, VY, E
 from continuum.scene import ROLL_ENERGY, columns_of
 from continuum.steady import STILL
 
-
-class Values(NamedTuple):
-    """Values of the fields at points."""
-    vx: np.ndarray
-    vy: np.ndarray
-    e: np.ndarray
-    T: np.ndarray
-    rho: np.ndarray
+#: Values of the fields at points.
+Values = namedtuple("Values", "vx vy e T rho")
 
 
 @dataclass(frozen=True)

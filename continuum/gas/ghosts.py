@@ -2,6 +2,7 @@
 
 See `continuum.gas.loop` for blocks. Each kind of sides has its own formula of `fill`.
 """
+from collections import namedtuple
 from typing import NamedTuple
 
 from continuum.fluid import conductivity, energy, temperature
@@ -112,15 +113,10 @@ def _(sides, eos, law, form, box, S):
             S[E, j, i] = energy(eos, node_density(rho, j, i), T)
 
 
-class SideRule(NamedTuple):
-    """A side in numbers alone, so that boxes of all kinds share their compiled code.
-
-    slip : without friction? v : velocity along the side. T, q : temperature, or nan and the heat flux.
-    """
-    slip: bool
-    v: float
-    T: float
-    q: float
+#: A side in numbers alone, so that boxes of all kinds share their compiled code.
+#:
+#: slip : without friction? v : velocity along the side. T, q : temperature, or nan and the heat flux.
+SideRule = namedtuple("SideRule", "slip v T q")
 
 
 def in_loop(sides):

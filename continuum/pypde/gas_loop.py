@@ -4,7 +4,8 @@
 columns, j rows. rho, e, T, coefficients and normal stresses are in cell (i, j), v_x on its right and v_y on
 its upper side, the shear stress at its upper right corner.
 """
-from typing import NamedTuple
+
+from collections import namedtuple
 
 import numpy as np
 
@@ -15,13 +16,8 @@ from continuum.jit import formula, jit
 RHO, VX, VY, E, T, ETA, K, SXX, SYY, SXY = range(10)
 
 
-class Mesh(NamedTuple):
-    """Data that the loops need besides fluid and state."""
-    h: float
-    g: float
-    T_hot: float
-    T_cold: float
-    torus: bool         # periodic in y too, without plates
+#: Data that the loops need besides fluid and state. torus : whether y is periodic, too, without plates.
+Mesh = namedtuple("Mesh", "h g T_hot T_cold torus")
 
 
 @jit

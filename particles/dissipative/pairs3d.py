@@ -1,5 +1,6 @@
 """Compiled pair sums of dissipative particles, in blocks of rows whose pairs stay in the cache."""
-from typing import NamedTuple
+
+from collections import namedtuple
 
 import numpy as np
 
@@ -13,37 +14,15 @@ Record = np.dtype([*((name, "f8") for name in ("x", "y", "z", "vx", "vy", "vz"))
 ROWS = 32       # rows of a block: their pairs take some 30 KB
 
 
-class Law(NamedTuple):
-    """Repulsion a, friction gamma, and amplitude sigma of the noise."""
-    a: float
-    gamma: float
-    sigma: float
+#: Repulsion a, friction gamma, and amplitude sigma of the noise.
+Law = namedtuple("Law", "a gamma sigma")
 
+#: Pairs within rc: row i has near, (dx, dy, dz) = r_i - r_j [first[i]:first[i] + taken[i]]; own, other :
+#: ids of both. f r is the force that does not depend on velocities, g r^2 the friction coefficient.
+Near = namedtuple("Near", "first taken near own other dx dy dz zeta f g")
 
-class Near(NamedTuple):
-    """Pairs within rc: row i has near, (dx, dy, dz) = r_i - r_j [first[i]:first[i] + taken[i]]; own, other :
-    ids of both. f r is the force that does not depend on velocities, g r^2 the friction coefficient."""
-    first: np.ndarray
-    taken: np.ndarray
-    near: np.ndarray
-    own: np.ndarray
-    other: np.ndarray
-    dx: np.ndarray
-    dy: np.ndarray
-    dz: np.ndarray
-    zeta: np.ndarray
-    f: np.ndarray
-    g: np.ndarray
-
-
-class Apart(NamedTuple):
-    """Geometry and coefficients of a pair, as a term reads them."""
-    dx: float
-    dy: float
-    dz: float
-    f: float
-    g: float
-
+#: Geometry and coefficients of a pair, as a term reads them.
+Apart = namedtuple("Apart", "dx dy dz f g")
 
 pair_at.of(Near)(lambda pairs, k: Apart(pairs.dx[k], pairs.dy[k], pairs.dz[k], pairs.f[k], pairs.g[k]))
 

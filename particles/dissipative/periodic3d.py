@@ -4,7 +4,8 @@ Two dimensions are treated as three with z = 0: one layer of cells, no ghosts ab
 two lists, so that one thread writes a row of a pair sum. In two dimensions these lists take twice as long as
 those of `particles.neighbours`.
 """
-from typing import NamedTuple
+
+from collections import namedtuple
 
 import numpy as np
 from llvmlite import ir
@@ -15,15 +16,8 @@ from continuum.jit import jit
 from particles.neighbours import NO_LISTS, ONE, counting_sort, farthest, fill_lists, u32, u64
 from particles.threads import Threads
 
-
-class Cubes(NamedTuple):
-    """Points sorted into cubes: cell c holds order[start[c]:start[c+1]], x in this order; counts by axis."""
-    low: np.ndarray
-    side: float
-    counts: np.ndarray
-    start: np.ndarray
-    order: np.ndarray
-    x: np.ndarray
+#: Points sorted into cubes: cell c holds order[start[c]:start[c+1]], x in this order; counts by axis.
+Cubes = namedtuple("Cubes", "low side counts start order x")
 
 
 @jit

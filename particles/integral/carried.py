@@ -3,13 +3,12 @@
 The volume of a point grows at the rate sum_j S_ij.(w_i + w_j)/2, w the velocity of points: exactly, if S is
 taken at the middle of the step. The fluid, of velocity v, crosses edges at the relative velocity r = w - v.
 """
-from typing import Any, NamedTuple
+from collections import namedtuple
 
 import numpy as np
 
 from continuum.fluid import conductivity, diffusivity, energy, pressure, temperature, viscosity
 from continuum.jit import formula, jit, jit_records
-from particles.integral.exchange import Listing
 from particles.neighbours import u64
 from particles.pairs import Block, pair_term, sweep
 from particles.threads import shared
@@ -26,38 +25,16 @@ OFFSETS = [*range(0, 80, 8), 0, 8]
 Point = np.dtype({"names": FIELDS, "formats": ["f8"]*len(FIELDS), "offsets": OFFSETS, "itemsize": 80})
 
 
-class Fluid(NamedTuple):
-    """Constants of all steps. shift : rate of drift to the triangles' centre, over the largest |grad v|."""
-    eos: Any
-    law: Any
-    terms: Listing
-    g: float
-    shift: float
+#: Constants of all steps. shift : rate of drift to the triangles' centre, over the largest |grad v|.
+Fluid = namedtuple("Fluid", "eos law terms g shift")
 
-
-class Bench(NamedTuple):
-    """Scratch memory of a step: fields of points, the state at its start, `geometry` at its middle, gains.
-
-    strain, stiffness (n,) : |grad v|, and an upper bound of the rate of diffusion over the edges of a point.
-    Stages alone need `before` (5, n): arrays that they do not need share its memory, and strain overwrites V.
-    left (2,) : how many parts of the current step are still to be made, and how many it has.
-    """
-    points: np.ndarray
-    before: np.ndarray
-    middle: np.ndarray
-    spread: np.ndarray
-    V: np.ndarray
-    strain: np.ndarray
-    stiffness: np.ndarray
-    pull: np.ndarray
-    flow: np.ndarray
-    once: np.ndarray
-    crossed: np.ndarray
-    changed: np.ndarray
-    stack: np.ndarray
-    free: np.ndarray
-    flipped: np.ndarray
-    left: np.ndarray
+#: Scratch memory of a step: fields of points, the state at its start, `geometry` at its middle, gains.
+#:
+#: strain, stiffness (n,) : |grad v|, and an upper bound of the rate of diffusion over the edges of a point.
+#: Stages alone need `before` (5, n): arrays that they do not need share its memory, and strain overwrites V.
+#: left (2,) : how many parts of the current step are still to be made, and how many it has.
+Bench = namedtuple("Bench", "points before middle spread V strain stiffness pull flow once crossed changed "
+                            "stack free flipped left")
 
 
 @pair_term(4)

@@ -9,8 +9,9 @@ eps_i are these times the volume V_i (Eq. 26). What point i loses over an edge, 
 
 with P_ij = P(rho_i, T_j), and stress and heat current nested (Eqs 37, 38) or pairwise (Eq. 51).
 """
+from collections import namedtuple
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -19,28 +20,14 @@ from continuum.fluid import energy, pressure, stress_tensor, temperature, valid
 from particles.fields import Fields, from_densities
 from particles.integral.edges import Edges
 
+#: Fields of a state: rho (n,), v (n, d), T (n,), eps (n,), P (n,).
+Flow = namedtuple("Flow", "rho v T eps P")
 
-class Flow(NamedTuple):
-    """Fields of a state: rho (n,), v (n, d), T (n,), eps (n,), P (n,)."""
-    rho: np.ndarray
-    v: np.ndarray
-    T: np.ndarray
-    eps: np.ndarray
-    P: np.ndarray
+#: Shear and bulk viscosity, conductivity, each (n,).
+Coefficients = namedtuple("Coefficients", "eta zeta kappa")
 
-
-class Coefficients(NamedTuple):
-    """Shear and bulk viscosity, conductivity, each (n,)."""
-    eta: np.ndarray
-    zeta: np.ndarray
-    kappa: np.ndarray
-
-
-class EdgeFluxes(NamedTuple):
-    """Fluxes out of the first point of each edge: mass (E,), momentum (E, d), energy (E,)."""
-    mass: np.ndarray
-    momentum: np.ndarray
-    energy: np.ndarray
+#: Fluxes out of the first point of each edge: mass (E,), momentum (E, d), energy (E,).
+EdgeFluxes = namedtuple("EdgeFluxes", "mass momentum energy")
 
 
 def densities(eos: Any, rho: np.ndarray, v: np.ndarray, T: Any) -> np.ndarray:

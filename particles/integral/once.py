@@ -5,7 +5,8 @@ it is added afterwards, on edges that `astir` finds: one by one, or for the whol
 round-off. Results do not depend on the number of threads, as blocks of edges do not, and points add up the
 exchange of their edges in the order of their rows.
 """
-from typing import NamedTuple
+
+from collections import namedtuple
 
 import numpy as np
 
@@ -24,21 +25,10 @@ ALIKE = Friction, Conduction, Mending
 Sent = np.dtype([(name, "f8") for name in ("m", "px", "py", "e")])
 
 
-class Once(NamedTuple):
-    """Edges from points i to `near`, each once, as in row i of `Faces`; edges behind the last have no area.
-
-    edge, sign : of each entry of the rows its edge, and 1 at that edge's point i, -1 at its point `near`.
-    """
-    i: np.ndarray
-    near: np.ndarray
-    sx: np.ndarray
-    sy: np.ndarray
-    k: np.ndarray
-    dx: np.ndarray
-    dy: np.ndarray
-    edge: np.ndarray
-    sign: np.ndarray
-
+#: Edges from points i to `near`, each once, as in row i of `Faces`; edges behind the last have no area.
+#:
+#: edge, sign : of each entry of the rows its edge, and 1 at that edge's point i, -1 at its point `near`.
+Once = namedtuple("Once", "i near sx sy k dx dy edge sign")
 
 pair_at.of(Once)(lambda once, h: Face(once.sx[h], once.sy[h], once.k[h], once.dx[h], once.dy[h]))
 

@@ -6,7 +6,8 @@ third of the area of the triangles around i. An edge with k_ij < 0 is not Delaun
 side is a chain from one neighbour on the side to the other; there the middle of the edge replaces the missing
 corner.
 """
-from typing import NamedTuple
+
+from collections import namedtuple
 
 import numpy as np
 
@@ -25,15 +26,9 @@ STRIP = 2.0
 LEAST = 8.0         # spacings along a periodic axis: in a narrower box a point may be a neighbour twice
 
 
-class Rings(NamedTuple):
-    """edges : rows of neighbours in order, S/2, k. rim (n,) : whether the ring is a chain. size (2,) : of the
-    box; per (2,) : 1/size along periodic axes, else 0. room (n,) : of each row; end (1,) : of all rows."""
-    edges: Stored
-    rim: np.ndarray
-    size: np.ndarray
-    per: np.ndarray
-    room: np.ndarray
-    end: np.ndarray
+#: edges : rows of neighbours in order, S/2, k. rim (n,) : whether the ring is a chain. size (2,) : of the
+#: box; per (2,) : 1/size along periodic axes, else 0. room (n,) : of each row; end (1,) : of all rows.
+Rings = namedtuple("Rings", "edges rim size per room end")
 
 
 def rings(x: np.ndarray, size: tuple[float, float], closed: tuple[bool, bool],

@@ -9,6 +9,7 @@ velocity v + rate height: which of two boxes is at rest does not matter.
 The state has a fifth row, how far the images above have slid: its rate is their speed, so that every
 integrator and every restart knows the time.
 """
+from collections import namedtuple
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -22,14 +23,9 @@ from particles.integral.points import Points, lattice
 from particles.pairs import Stored
 from particles.threads import Threads
 
-
-class Through(NamedTuple):
-    """Entries of stored edges through a side: which, up (1) or down (-1), to the second of two images, with
-    the share theta, or to the first; point at the place to which it leads."""
-    entry: np.ndarray
-    up: np.ndarray
-    second: np.ndarray
-    place: np.ndarray
+#: Entries of stored edges through a side: which, up (1) or down (-1), to the second of two images, with
+#: the share theta, or to the first; point at the place to which it leads.
+Through = namedtuple("Through", "entry up second place")
 
 
 def sides(points: Points, edges: Edges) -> tuple[Stored, Through]:
