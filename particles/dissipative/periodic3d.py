@@ -8,9 +8,6 @@ those of `particles.neighbours`.
 from collections import namedtuple
 
 import numpy as np
-from llvmlite import ir
-from numba import types
-from numba.extending import intrinsic
 
 from continuum.jit import jit
 from particles.neighbours import NO_LISTS, ONE, counting_sort, farthest, fill_lists, u32, u64
@@ -68,52 +65,32 @@ def _gather(cells, home, near, number):
     return count
 
 
-@intrinsic
-def lowest_bit(typingctx, word):
-    """Index of the lowest bit of a 64-bit word that is one."""
-    def build(context, builder, signature, arguments):
-        return builder.cttz(arguments[0], ir.Constant(ir.IntType(1), 1))
-    return types.uint64(types.uint64), build
-
-
-@jit
-def _within(x, y, z, far2, near, first):
-    """Word whose bit b is one if point near[:, first + b] is nearer to (x, y, z) than the root of far2."""
-    bits = u64(0)
-    for b in range(u64(64)):
-        dx, dy, dz = near[0, first + b] - x, near[1, first + b] - y, near[2, first + b] - z
-        bits |= u64(dx*dx + dy*dy + dz*dz < far2) << b
-    return bits
-
-
 @jit
 def list_rows(first, last, n, cells, reach, capacity, lists):
     """Write the lists of the n particles among points first..last of the cells. Returns False without room.
 
-    Points around a cell are compared 64 at a time, in vector instructions.
+    All points around a cell are compared before the list is compressed, as in `neighbours`.
     """
-    most = 27*np.diff(cells.start).max() + 64
-    near, number = np.empty((3, most)), np.empty(most, u32)
+    most = 27*np.diff(cells.start).max()
+    near, number, close = np.empty((3, most)), np.empty(most, u32), np.empty(most, u32)
     far2, used, room, home, count = reach*reach, u64(first*capacity), u64(last*capacity), -1, u64(0)
     for k in range(u64(first), u64(last)):
-        i = cells.order[k]
+        i, c, found = cells.order[k], _cell(cells, cells.x, k), u64(0)
         if i >= n:
             continue
-        c = _cell(cells, cells.x, k)
         if c != home:
             home, count = c, _gather(cells, c, near, number)
-            near[0, count:count + u64(64)] = np.inf
-        if used + count >= room:
+        x, y, z = cells.x[k]
+        for m in range(count):
+            dx, dy, dz = near[0, m] - x, near[1, m] - y, near[2, m] - z
+            close[m] = u64(dx*dx + dy*dy + dz*dz < far2) & u64(number[m] != i)
+            found += close[m]
+        if used + found >= room:
             return False
-        begin = used
-        for word in range(u64(0), count, u64(64)):
-            bits = _within(cells.x[k, 0], cells.x[k, 1], cells.x[k, 2], far2, near, word)
-            while bits:
-                j = number[word + lowest_bit(bits)]
-                bits &= bits - ONE
-                lists.listed[used] = j
-                used += u64(j != i)
-        lists.start[i], lists.length[i] = begin, used - begin
+        lists.start[i], lists.length[i] = used, found
+        for m in range(count):
+            lists.listed[used] = number[m]
+            used += close[m]
     return True
 
 
