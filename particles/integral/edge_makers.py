@@ -32,12 +32,8 @@ def judged(edges: Edges, points: Points, weight: Any) -> Edges:
 
 def plain(points: Points, weight: Any) -> Edges:
     """Edges of plain quadrature, W(r_ij) dV in place of W(r) dr. Warns if Eq. 45 does not hold."""
-    return judged(_plain(points, weight), points, weight)
-
-
-def _plain(points: Points, weight: Any) -> Edges:
     check(weight, points.d)
-    return from_weights(points, weight)
+    return judged(from_weights(points, weight), points, weight)
 
 
 def printed(points: Points, weight: Any) -> Edges:
@@ -51,27 +47,24 @@ def printed(points: Points, weight: Any) -> Edges:
     return judged(from_weights(points, weight, lambda r: sphere(d)*r**(d - 1)*a**(1 - d)), points, weight)
 
 
-def renormalised(points: Points, weight: Any) -> Edges:
+def renormalised(points: Points, weight: Any, warn: bool = True) -> Edges:
     """Plain quadrature times the factor that makes the mean discrete first moment sum_j W r_ij dV equal to d.
     Warns if Eq. 45 does not hold. Raises ValueError: no two points are within the weight's range."""
-    return judged(_renormalised(points, weight), points, weight)
-
-
-def _renormalised(points: Points, weight: Any) -> Edges:
-    edges = _plain(points, weight)
+    check(weight, points.d)
+    edges = from_weights(points, weight)
     if not edges.k.any():
         raise ValueError(f"no two of the {points.n} points, on average {points.a:.4g} apart, are within the "
                          f"weight's range {reach(weight):.4g}: take a larger h or more points (Eq. 45)")
     # d times the factor by which gradients of linear fields are off
-    first = float(np.einsum("iaa,i->", edges.linear, edges.V)/edges.V.sum())
-    c = points.d/first
-    return replace(edges, S=c*edges.S, k=c*edges.k)
+    c = points.d/float(np.einsum("iaa,i->", edges.linear, edges.V)/edges.V.sum())
+    made = replace(edges, S=c*edges.S, k=c*edges.k)
+    return judged(made, points, weight) if warn else made
 
 
 def closed(points: Points, weight: Any) -> Edges:
     """Renormalised edges, S_ij + k_ij (l_j - l_i), l from the graph Laplacian so that all close. Gradients
     keep an error that the disorder sets. Raises ValueError: the points fall into unconnected parts."""
-    edges = judged(_renormalised(points, weight), points, weight)
+    edges = judged(renormalised(points, weight, False), points, weight)
     l = np.stack([_potential(edges, -c) for c in edges.closure.T], axis=1)
     return replace(edges, S=edges.S + edges.k[:, None]*(l[edges.j] - l[edges.i]))
 
@@ -102,7 +95,7 @@ def exact(points: Points, weight: Any) -> Edges:
     dS_ij = k_ij [lam_i - lam_j + (mu_i + mu_j).(x_j - x_i)/2] for each direction; lam (n,), mu (n, d) follow
     from the constraints. Raises ArithmeticError: the points are too irregular for the reach of the weight.
     """
-    edges = _renormalised(points, weight)       # no check of Eq. 45: these become exact
+    edges = renormalised(points, weight, False)     # these become exact
     check_connected(edges)
     B = _constraints(edges)
     M = sparse.csc_array(B@sparse.diags_array(edges.k)@B.T)
