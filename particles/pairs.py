@@ -47,6 +47,7 @@ Edge = namedtuple("Edge", "sx sy k")
 #: Geometry of an `Edge` with the vector along it, (dx, dy) = x_b - x_a.
 Face = namedtuple("Face", "sx sy k dx dy")
 
+
 @generic
 def pair_at(pairs, k):
     """Geometry of the k-th pair, as a term reads it."""
