@@ -44,9 +44,9 @@ def _differences(a, b, x, y):
 def Fluxes(term, a, b, ab):
     """Acceleration and heating by P/rho^2 and Q/rho^2    [KHP95, Sec. II]
 
-    a_a = -sum_b [(P/rho^2)_a + (P/rho^2)_b].grad w,
-    de_a = -sum_b (1/2) [(P/rho^2)_a + (P/rho^2)_b] : (v_b - v_a) grad w - sum_b [(Q/rho^2)_a +
-    (Q/rho^2)_b].grad w
+    a_a = -sum_b [(P/rho^2)_a + (P/rho^2)_b].grad m w,
+    de_a = -sum_b (1/2) [(P/rho^2)_a + (P/rho^2)_b] : (v_b - v_a) grad m w - sum_b [(Q/rho^2)_a +
+    (Q/rho^2)_b].grad m w
     """
     # four sums of the same form fill a vector register; the fourth is not used
     fx = (a.xx + b.xx)*ab.wx + (a.yx + b.yx)*ab.wy

@@ -34,7 +34,10 @@ class FluxForm(NamedTuple):
 
 
 class PaperForm(NamedTuple):
-    """d rho/dt = -rho div v - v.grad rho, density 1 in the cells outside of the walls    [KHP95, Sec. V]"""
+    """d rho/dt = -rho div v - v.grad rho, density 1 in the cells outside of the walls    [KHP95, Sec. V]
+
+    The paper prints the density; the form is inferred.
+    """
 
 
 class EdgeHeat(FluxForm):

@@ -64,7 +64,7 @@ class Dpd:
         return float(np.prod(self.box))
 
     def law(self, dt: float) -> Law:
-        """Amplitudes of the forces for a step dt: sigma^2 dt = 2 gamma kT    [Español & Warren 1995]"""
+        """Amplitudes of the forces for a step dt: sigma^2 is 2 gamma kT/dt    [Español & Warren 1995]"""
         return Law(self.a, self.gamma, float(np.sqrt(2*self.gamma*self.kT/dt)))
 
     def limit(self, start: np.ndarray) -> float:

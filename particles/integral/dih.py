@@ -79,7 +79,7 @@ class NestedFluxes:
 class Pairwise:
     """Forces along edges [Eq. 51]: k [B (v_j - v_i) + A e e.(v_j - v_i)], heat k kappa (T_j - T_i).
 
-    B, A are those of `frictions`, as printed except for weights and their moments. mended : add the stress
+    B, A are those of `frictions`; the paper leaves both free. mended : add the stress
     tau_ab = B (d_b v_a - delta_ab div v) of the points, which forces along edges lack, and its work F_a =
     tau_ab v_b. In the continuum div tau = 0 where viscosity is constant: its force is added only where
     viscosity varies. F is always added: without it even a rigid rotation heats.
@@ -123,7 +123,8 @@ def check_share(share: float) -> None:
 
 
 def frictions(eta: np.ndarray, zeta: np.ndarray, d: int) -> tuple[np.ndarray, np.ndarray]:
-    """B = eta (1/2 + 1/d) - zeta/2, A = (d + 2)/2 [eta (1 - 2/d) + zeta]    [Eq. 51]"""
+    """B = eta (1/2 + 1/d) - zeta/2, A = (d + 2)/2 [eta (1 - 2/d) + zeta] of Eq. 51, which leaves both free:
+    from the limit of long waves on isotropic edges."""
     return eta*(1/2 + 1/d) - zeta/2, (d + 2)/2*(eta*(1 - 2/d) + zeta)
 
 

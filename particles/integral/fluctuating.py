@@ -159,7 +159,7 @@ def printed_stress(edges: Edges, eta: Any, zeta: Any, kT: Any, *, doubled: bool,
 
     Square roots are those printed, of 2 kT_i eta_j + 2 kT_j eta_i (X) and kT_i zeta_j + kT_j zeta_i (Y).
     doubled : the bracket takes pi_ij + pi_ji = 2 pi_ij (Eq. 35), not pi_ij (Eq. 22). volume : divide
-    variances by V, not V^2 as printed. trace : 2/3 as printed. bulk : 1 as printed, 2 as in Eq. 23.
+    variances by V, not V^2 (Eq. 42 with Eq. 27). trace : 2/3 as printed. bulk : 1 as printed, 2 as in Eq. 23.
     """
     eta, zeta, kT = checked(edges.n, eta=eta, zeta=zeta, kT=kT)
     i, j, d = edges.i, edges.j, edges.d

@@ -1,4 +1,7 @@
-"""Rows of fixed particles behind a plate [KHP95, Fig. 2], with an elastic wall in the plate."""
+"""Rows of fixed particles behind a plate [KHP95, Fig. 2], with an elastic wall in the plate.
+
+They have the density of the fluid; the paper's are denser, by how much is not printed.
+"""
 from typing import NamedTuple
 
 import numpy as np
