@@ -179,6 +179,9 @@ def expansivity(eos, rho: float, T: float) -> float:
 
 def check_eos(eos: Any) -> None:
     """Check that the equation of state has all formulas: TypeError. A class itself is left to `energy`."""
+    if isinstance(eos, str):
+        raise TypeError(f"eos must be an object such as IdealGas(), got {eos!r}: EQUATIONS_OF_STATE of "
+                        f"continuum.fluid has {', '.join(EQUATIONS_OF_STATE)}")
     if not isinstance(eos, type):
         check_formulas(eos, pressure, temperature, energy, pressure_slopes, thermal_pressure, valid)
 

@@ -142,9 +142,10 @@ def _check_start(method, start: np.ndarray, plan: Plan) -> None:
                          "the box is centred on the origin; move them inside")
     limit = _limit(method, start)
     if plan.dt > limit:
-        raise ValueError(f"dt = {plan.dt:g} is above the stability limit {limit:.3g} for these "
-                         f"particles, {RANDOM*limit:.2g} where they lie at random; the studies take "
-                         f"{STUDIES*limit:.2g}, because errors at plates grow with dt")
+        usual = ": take at most that, or leave dt out" if walls is None else (
+            f" for these particles, {RANDOM*limit:.2g} where they lie at random; the studies take "
+            f"{STUDIES*limit:.2g}, because errors at plates grow with dt")
+        raise ValueError(f"dt = {plan.dt:g} is above the stability limit {limit:.3g}{usual}")
 
 
 def _limit(method, start: np.ndarray) -> float:

@@ -163,6 +163,8 @@ def other_box():
     (lambda: solve(Domain(L=12, eta=0.1, k=0.1, top=Slip()), "moving-delaunay"), r"= Slip\(.*\): take grid"),
     (lambda: compare(RB, ["grid"], rows=8, ra=1e9, time=30).plot(), "every run diverged: there is nothing"),
     (lambda: solve(RB, "grid", time=-1), "time must be positive and finite, got -1"),
+    (lambda: solve(RB, "grid", rows=8, dt=9.0), "limit [0-9.]+: take at most that, or leave dt out"),
+    (lambda: solve(RB, "grid", rows=8, eos="vdw"), "got .vdw.: EQUATIONS_OF_STATE .* has ideal, vdw"),
     (other_box, "points of the method reach 15 x 7, the scene is 16 x 12"),
     (lambda: solve("sound", "boussinesq"), "boussinesq solves Rayleigh-Benard convection, not Sound"),
     (lambda: solve("sound", lambda scene: with_term(ready(scene, "spam").method, 0.0)),
