@@ -1,6 +1,6 @@
 """Noise on irregular points: one random stress a point is the partner of friction, to round-off.
 
-Points that start at rest come to the temperature of their noise."""
+Points that start at rest warm to the temperature of their noise."""
 import numpy as np
 
 from examples import picture, sized
@@ -24,5 +24,5 @@ for _ in range(sized(4000, 200)):       # implicit midpoint would be exact; a sh
 page, axes = figure(width=5.5)
 axes.plot(dt*np.arange(len(seen)), seen, marker="")
 axes.axhline(1, color="black")
-axes.set(xlabel="time", ylabel="kT of velocities / kT", title="Velocities warm towards that of their noise")
+axes.set(xlabel="time", ylabel="kT of velocities / kT", title="Velocities warm to their noise's temperature")
 save(page, picture("noise"))

@@ -22,5 +22,5 @@ if __name__ == "__main__":
     print(dict(zip(numbers, K, strict=True)))
     page, axes = figure()
     axes.plot([ra**-0.5 for ra in numbers], K)
-    axes.set(xlabel="Ra$^{-1/2}$", ylabel="K", title="K falls in a straight line to the onset")
+    axes.set(xlabel="Ra$^{-1/2}$", ylabel="K", title="K is nearly linear in Ra$^{-1/2}$")
     save(page, picture("sweep"))
